@@ -1,0 +1,38 @@
+//! The one rule for what blocks and what does not.
+//!
+//! - Every triangle blocks on both faces, emitters too.
+//! - A triangle whose plane holds x blocks nothing.
+//! - A triangle coplanar with a light's does not block that light; where both are met at one distance, the emitter wins.
+//!
+//! "Holds" and "coplanar" mean: |distance| <= 4 · 2⁻²⁴ × the largest coordinate magnitude involved, which is what the
+//! rounding of world vertices to binary32 can move. There is no other tolerance and no fixed epsilon: rays, the
+//! [`View`](crate::view::View) and exact light all ask the functions of this file.
+
+use glam::DVec3;
+
+use crate::mesh::Triangle;
+
+/// 4 · 2⁻²⁴: the tolerance per metre of coordinate magnitude.
+pub const TOLERANCE: f64 = 4.0 / 16_777_216.0;
+
+/// Whether the plane of `triangle` holds `x` (metres), so that the triangle blocks nothing that x sees.
+///
+/// |N·(x − a)| <= tolerance × magnitude × |N| with N = (b − a) × (c − a).
+pub fn plane_holds(triangle: &Triangle, x: DVec3) -> bool {
+    let magnitude = triangle.magnitude().max(x.abs().max_element());
+    within(triangle, x, magnitude)
+}
+
+/// Whether two triangles lie in one plane: all vertices of one within the tolerance of the other's plane. Either may be
+/// the one whose plane is taken, since the plane of a small triangle is known too poorly to be extended across a large one.
+pub fn coplanar(one: &Triangle, other: &Triangle) -> bool {
+    let magnitude = one.magnitude().max(other.magnitude());
+    let lies_in = |t: &Triangle, plane: &Triangle| t.vertices().iter().all(|&v| within(plane, v, magnitude));
+    lies_in(one, other) || lies_in(other, one)
+}
+
+fn within(plane: &Triangle, point: DVec3, magnitude: f64) -> bool {
+    let normal = plane.cross();
+    let offset = normal.dot(point - plane.a.as_dvec3()).abs();
+    offset <= TOLERANCE * magnitude * normal.length()
+}

@@ -1,0 +1,5 @@
+//! Where things are. Skeleton.
+
+pub mod blocking;
+pub mod mesh;
+pub mod target;

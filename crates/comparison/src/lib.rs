@@ -1,1 +1,3 @@
-//! Skeleton.
+//! The experiment. Skeleton.
+
+pub mod result;

@@ -1,0 +1,61 @@
+//! A point of a light as x meets it, and the segment that joins the two.
+//!
+//! All of it is said in the frame of x: x is the origin and N_x the third axis, so that cosθ_x is a coordinate. See
+//! [`Frame`](crate::frame::Frame).
+
+use crate::real::Real;
+use crate::vector::{Direction, Vector};
+
+/// A point y on a target.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint<R: Real> {
+    /// y − x in metres.
+    pub position: Vector<R>,
+    /// N_y·(x − y) in metres: how far x lies from the plane through y, on the side that emits. Negative where x is
+    /// behind a one-sided target; the distance itself where both sides emit. Known to full precision from the set-up,
+    /// unlike a dot product of rounded vectors.
+    pub depth: R,
+    /// The target that y lies on.
+    pub target: R::Word,
+}
+
+/// The segment from x to y.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<R> {
+    /// Ψ: the direction from x to y.
+    pub psi: Direction<R>,
+    /// r_xy in metres.
+    pub r: R,
+    /// cosθ_x = N_x·Ψ.
+    pub cos_x: R,
+    /// cosθ_y = N_y·(−Ψ).
+    pub cos_y: R,
+}
+
+impl<R: Real> Segment<R> {
+    /// The segment from x, the origin, to y.
+    #[inline(always)]
+    pub fn to(y: &SurfacePoint<R>) -> Self {
+        let r = y.position.length();
+        let psi = Direction::of(y.position, r);
+        Self { psi, r, cos_x: psi.cos_theta(), cos_y: y.depth / r }
+    }
+
+    /// dω/dA = cosθ_y / r²: the solid angle that x sees per area around y, in sr/m².
+    #[inline(always)]
+    pub fn d_omega_d_area(&self) -> R {
+        self.cos_y / (self.r * self.r)
+    }
+
+    /// G without V: cosθ_x cosθ_y / r², in 1/m².
+    #[inline(always)]
+    pub fn g(&self) -> R {
+        self.cos_x * self.d_omega_d_area()
+    }
+
+    /// Where x and y face each other: both cosines positive.
+    #[inline(always)]
+    pub fn facing(&self) -> R::Mask {
+        R::zero().lt(self.cos_x) & R::zero().lt(self.cos_y)
+    }
+}

@@ -1,0 +1,74 @@
+//! Finding triangles: nearest along a ray, any before a distance, all within a convex region.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+
+use crate::blocking;
+use crate::mesh::Mesh;
+use crate::ray::{Hit, Ray};
+
+/// Answers questions about the triangles of a mesh. Every answer is a function of the question alone: it depends neither
+/// on the order of traversal nor on which tracer is asked. A triangle whose plane holds the ray's origin is never met
+/// (see [`blocking`]).
+pub trait Tracer {
+    /// The nearest triangle along the ray.
+    fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit>;
+
+    /// Whether the ray meets a triangle at a distance below `before` for which `blocks` holds.
+    fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool;
+
+    /// Visits every triangle whose bounding box touches the region, and possibly others, each at least once.
+    fn within(&self, mesh: &Mesh, region: &Region, visit: impl FnMut(u32) -> ControlFlow<()>);
+}
+
+/// The ray's meeting with one triangle, under the blocking rule.
+#[inline]
+pub(crate) fn meet(mesh: &Mesh, ray: &Ray, index: u32) -> Option<Hit> {
+    let triangle = mesh.triangle(index);
+    let t = ray.distance(&triangle)?;
+    let hit = Hit { t, triangle: index };
+    (!blocking::plane_holds(&triangle, ray.origin)).then_some(hit)
+}
+
+/// A convex region: the points p with n·(p − origin) <= offset for each of its half-spaces.
+#[derive(Clone, Debug)]
+pub struct Region {
+    /// The point that the half-spaces are measured from, world metres.
+    pub origin: DVec3,
+    /// Outward normals, of any length, and offsets along them.
+    pub half_spaces: Vec<(DVec3, f64)>,
+}
+
+impl Region {
+    /// Whether the box lies wholly outside one of the half-spaces, so that no point of it is in the region.
+    #[inline]
+    pub fn misses(&self, low: DVec3, high: DVec3) -> bool {
+        let (low, high) = (low - self.origin, high - self.origin);
+        self.half_spaces.iter().any(|(n, offset)| {
+            let nearest = DVec3::select(n.cmpgt(DVec3::ZERO), low, high);
+            n.dot(nearest) > *offset
+        })
+    }
+}
+
+/// Asks every triangle: slow, and right by inspection.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BruteForce;
+
+impl Tracer for BruteForce {
+    fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
+        let hits = (0..mesh.len() as u32).filter_map(|index| meet(mesh, ray, index));
+        hits.reduce(|best, hit| if hit.before(&best) { hit } else { best })
+    }
+
+    fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
+        (0..mesh.len() as u32)
+            .filter(|&index| blocks(index))
+            .any(|index| meet(mesh, ray, index).is_some_and(|hit| hit.t < before))
+    }
+
+    fn within(&self, mesh: &Mesh, _: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
+        let _ = (0..mesh.len() as u32).try_for_each(&mut visit);
+    }
+}

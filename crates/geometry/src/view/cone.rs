@@ -1,0 +1,51 @@
+//! Convex cones with their apex at x.
+
+use glam::DVec3;
+
+use crate::real::{Mask, Real};
+use crate::vector::{Vector, round};
+
+/// A convex cone: the directions on the inner side of up to four planes through x. What stands between x and a target,
+/// and the outline of the target itself, are such cones.
+///
+/// An edge's plane is the cross product of its two vertices, taken in binary64 by two products and a difference, so
+/// triangles on either side of an edge have exactly opposite planes, and a direction on the edge belongs to both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    planes: [[f32; 3]; 4],
+}
+
+impl Cone {
+    /// The cone with these inward plane normals (any length, local); at most four. Repeats the last one to fill up.
+    pub(crate) fn new(planes: &[DVec3]) -> Self {
+        let last = planes.len().saturating_sub(1);
+        let plane = |k: usize| planes.get(k.min(last)).map_or([0.0; 3], |n| round(n.normalize_or_zero()));
+        Self { planes: [plane(0), plane(1), plane(2), plane(3)] }
+    }
+
+    /// Whether a direction (of any length) lies in the cone or on its boundary.
+    #[inline(always)]
+    pub fn holds<R: Real>(&self, toward: Vector<R>) -> R::Mask {
+        self.planes.iter().fold(R::Mask::splat(true), |inside, &normal| {
+            if !inside.any() {
+                return inside;
+            }
+            inside & R::zero().le(Vector::splat(normal).dot(toward))
+        })
+    }
+}
+
+/// The inward normals of the planes through x and the edges of a polygon that is convex as x sees it, its corners in
+/// order in the frame of x. An edge that points straight at x gives the zero vector, which bounds nothing.
+pub(crate) fn edge_planes(corners: &[DVec3]) -> impl Iterator<Item = DVec3> + '_ {
+    let inward = orientation(corners);
+    let next = |k: usize| corners[(k + 1) % corners.len()];
+    (0..corners.len()).map(move |k| inward * corners[k].cross(next(k)))
+}
+
+/// +1 if the corners run counter-clockwise as x sees them, −1 if clockwise.
+fn orientation(corners: &[DVec3]) -> f64 {
+    let [a, rest @ ..] = corners else { return 1.0 };
+    let volume: f64 = rest.windows(2).map(|edge| a.dot(edge[0].cross(edge[1]))).sum();
+    1.0_f64.copysign(volume)
+}

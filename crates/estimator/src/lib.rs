@@ -1,1 +1,18 @@
-//! Skeleton.
+//! The number by chance: measures and densities, the two formulations side by side, the catalogue of strategies,
+//! samplers, moments.
+//!
+//! Three files hold the subject: [`measure`], and the mirror images `formulation/hemisphere.rs` and
+//! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
+
+pub mod density;
+pub mod estimator;
+pub mod formulation;
+pub mod lights;
+pub mod measure;
+pub mod moments;
+pub mod query;
+pub mod rgb;
+pub mod sampler;
+pub mod selection;
+pub mod strategy;
+pub mod xi;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -14,7 +15,7 @@ use crate::tracer::{BruteForce, Region, Tracer};
 
 /// A mesh, its targets, and a tracer that finds triangles.
 pub struct Geometry {
-    mesh: Mesh,
+    mesh: Arc<Mesh>,
     targets: Vec<Target>,
     tracer: AnyTracer,
     /// The target each emitting triangle belongs to.
@@ -29,17 +30,18 @@ impl Geometry {
     /// Builds the hierarchy over the mesh and relates targets to what is coplanar with them.
     ///
     /// Targets must refer to triangles of the mesh, and no triangle may belong to two.
-    pub fn new(mesh: Mesh, targets: Vec<Target>) -> Self {
+    pub fn new(mesh: impl Into<Arc<Mesh>>, targets: Vec<Target>) -> Self {
+        let mesh = mesh.into();
         let tracer = AnyTracer::Hierarchy(Hierarchy::new(&mesh));
         Self::with_tracer(mesh, targets, tracer)
     }
 
     /// The same geometry without a hierarchy: every question is asked of every triangle. The truth to test against.
-    pub fn brute_force(mesh: Mesh, targets: Vec<Target>) -> Self {
-        Self::with_tracer(mesh, targets, AnyTracer::BruteForce(BruteForce))
+    pub fn brute_force(mesh: impl Into<Arc<Mesh>>, targets: Vec<Target>) -> Self {
+        Self::with_tracer(mesh.into(), targets, AnyTracer::BruteForce(BruteForce))
     }
 
-    fn with_tracer(mesh: Mesh, targets: Vec<Target>, tracer: AnyTracer) -> Self {
+    fn with_tracer(mesh: Arc<Mesh>, targets: Vec<Target>, tracer: AnyTracer) -> Self {
         let target_of: HashMap<u32, u32> =
             (0..).zip(&targets).flat_map(|(k, target)| target.triangles().map(move |t| (t, k))).collect();
         let spared: Vec<Box<[u32]>> = targets.iter().map(|target| spared_by(&mesh, &tracer, target)).collect();

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::cone::{Cone, edge_planes};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -99,6 +100,12 @@ impl Wide {
     /// The corners in the frame of x.
     pub(crate) fn corners(&self) -> &[DVec3] {
         &self.corners[..self.count]
+    }
+
+    /// The cone of directions that meet it.
+    pub(crate) fn outline(&self) -> Cone {
+        let planes: Vec<DVec3> = edge_planes(self.corners()).collect();
+        Cone::new(&planes)
     }
 
     /// Whether x is on a side that emits.

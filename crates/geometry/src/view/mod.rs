@@ -72,6 +72,13 @@ impl<'g> View<'g> {
         Facet::from_row(R::gather(target, |k| self.facet_row(k)))
     }
 
+    /// Whether the line from x along Ψ meets a target, whatever stands between and whichever side it shows.
+    #[inline(always)]
+    pub fn meets<R: Real>(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
+        let all = R::Mask::splat(true);
+        R::each(all, target, psi.vector().to_array(), |k, psi| self.outline(k).holds(Vector::from(psi)).then_some(k)).0
+    }
+
     /// y = vp(x, Ψ) where y is on the emitting side of a target; nothing where Ψ meets no surface, a surface that does
     /// not emit, or the dark side of one that does.
     #[inline(always)]
@@ -157,6 +164,13 @@ impl<'g> View<'g> {
         let hit = self.geometry.vp(&Ray::new(self.frame.x(), self.frame.to_world(local)))?;
         let target = self.geometry.target_of(hit.triangle)?;
         Facet::wide(self.geometry, &self.frame, target).faces_x().then_some(target)
+    }
+
+    fn outline(&self, target: u32) -> Cone {
+        match &self.sights {
+            Some(sights) => *sights[target as usize].outline(),
+            None => Facet::wide(self.geometry, &self.frame, target).outline(),
+        }
     }
 
     fn facet_row(&self, target: u32) -> [f32; facet::ROW] {

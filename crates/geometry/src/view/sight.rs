@@ -40,13 +40,12 @@ impl Sight {
         let facet = Facet::wide(geometry, frame, target);
         let visible = above_horizon(facet.corners());
         let lit = facet.faces_x() && visible.len() >= 3;
-        let planes: Vec<DVec3> = edge_planes(facet.corners()).collect();
         let between = match effort {
             Effort::Gather if lit => gather(geometry, frame, target, &facet, &visible),
             Effort::Gather => Between::Gathered(Vec::new()),
             Effort::Cast => Between::Unknown,
         };
-        Self { row: facet.row(), lit, outline: Cone::new(&planes), between }
+        Self { row: facet.row(), lit, outline: facet.outline(), between }
     }
 
     /// Whether light can come from it at all: x on a side that emits, some of it above x's horizon.

@@ -1,0 +1,61 @@
+//! Points on the lights, and the directions toward them.
+
+use twoforms_geometry::masked::Masked;
+use twoforms_geometry::real::Real;
+use twoforms_geometry::segment::{Segment, SurfacePoint};
+use twoforms_geometry::view::View;
+
+use super::Density;
+use crate::measure::{ANYWHERE, Aim, Pdf, Sample, SolidAngle, SurfaceArea};
+use crate::selection::Picker;
+use crate::xi::Xi;
+
+/// A target is picked, then a point on it uniformly: p(y) = Pr(target)/A(target).
+#[derive(Clone, Copy, Debug)]
+pub struct OnLights<'p> {
+    /// Picks the target.
+    pub picker: &'p Picker,
+}
+
+/// The crossed row: y is drawn as [`OnLights`] does, and Ψ points at it, with p(Ψ) = p(y) r²/cosθ_y at that y. Only the
+/// target drawn counts, so the two ways to write the integral have one density and equal each other sample by sample.
+#[derive(Clone, Copy, Debug)]
+pub struct TowardLights<'p> {
+    /// Where Ψ points at.
+    pub lights: OnLights<'p>,
+}
+
+impl Density<SurfaceArea> for OnLights<'_> {
+    #[inline(always)]
+    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
+        let (target, u) = self.picker.pick::<R>(xi.pick());
+        let at = view.facet::<R>(target).point([u, xi.v()], target);
+        self.pdf(view, &at).map(|pdf| Sample { at, pdf })
+    }
+
+    #[inline(always)]
+    fn pdf<R: Real>(&self, _: &View, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
+        Masked::all(Pdf::new(self.picker.density::<R>(y.target)))
+    }
+}
+
+impl Density<SolidAngle> for TowardLights<'_> {
+    #[inline(always)]
+    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+        let (Sample { at: y, pdf }, some) = self.lights.sample(view, xi).parts();
+        let xy = Segment::to(&y);
+        let at = Aim { psi: xy.psi, target: y.target };
+        Masked::new(Sample { at, pdf: pdf.per_solid_angle(&xy) }, some & xy.facing())
+    }
+
+    #[inline(always)]
+    fn pdf<R: Real>(&self, view: &View, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+        let aimed = !R::same(aim.target, R::splat_word(ANYWHERE));
+        let target = R::select_word(aimed, aim.target, R::splat_word(0));
+        let y = view.facet::<R>(target).point_along(aim.psi, target);
+        let xy = Segment::to(&y);
+        let (pdf, some) = self.lights.pdf(view, &y).parts();
+        let drawn = some & aimed & xy.facing() & view.meets(target, aim.psi);
+        Masked::new(pdf.per_solid_angle(&xy), drawn)
+    }
+}

@@ -1,0 +1,48 @@
+//! Linear RGB.
+
+use std::ops::Mul;
+
+use twoforms_geometry::real::Real;
+
+/// Linear RGB (Rec. 709 primaries) per sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rgb<R>(pub [R; 3]);
+
+impl<R: Real> Rgb<R> {
+    /// The same colour for every sample.
+    #[inline(always)]
+    pub fn splat(rgb: [f32; 3]) -> Self {
+        Self(rgb.map(R::splat))
+    }
+
+    /// The colour where the mask holds, else black.
+    #[inline(always)]
+    pub fn or_black(self, mask: R::Mask) -> Self {
+        Self(self.0.map(|c| R::select(mask, c, R::zero())))
+    }
+}
+
+impl<R: Real> Mul<R> for Rgb<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, scale: R) -> Self {
+        Self(self.0.map(|c| c * scale))
+    }
+}
+
+impl<R: Real> Mul for Rgb<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, Self([r, g, b]): Self) -> Self {
+        Self([self.0[0] * r, self.0[1] * g, self.0[2] * b])
+    }
+}
+
+/// Luminance of linear RGB: 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709).
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// The luminance of a colour.
+#[inline(always)]
+pub fn luminance(rgb: [f64; 3]) -> f64 {
+    rgb[0] * LUMINANCE[0] + rgb[1] * LUMINANCE[1] + rgb[2] * LUMINANCE[2]
+}

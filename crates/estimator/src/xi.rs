@@ -1,0 +1,88 @@
+//! ξ: the random numbers of one sample, as a function of who asks.
+
+use rand_philox::{philox4x32_10, splitmix64};
+use twoforms_geometry::real::Real;
+
+/// Who asks for random numbers. Two askers with different keys have independent numbers; the same key always has the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Key([u32; 2]);
+
+impl Key {
+    /// The key of a sequence of words, for instance the seed, the bits of a position, and the bytes of a name.
+    ///
+    /// Each word is mixed in by the finaliser of SplitMix64 (Steele, Lea, Flood 2014) over a Weyl sequence, so that the
+    /// key depends on every word and on their order.
+    pub fn new(words: impl IntoIterator<Item = u64>) -> Self {
+        const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+        let mix = |key: u64, word: u64| splitmix64(key.wrapping_add(GOLDEN) ^ splitmix64(word.wrapping_add(GOLDEN)));
+        let key = words.into_iter().fold(0, mix);
+        Self([key as u32, (key >> 32) as u32])
+    }
+
+    /// The bytes of a name as words.
+    pub fn words_of(name: &str) -> impl Iterator<Item = u64> + '_ {
+        name.bytes().map(u64::from)
+    }
+}
+
+/// Which estimate a sample belongs to: sample counts and replicates have numbers of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Draws {
+    /// Who asks.
+    pub key: Key,
+    /// N.
+    pub samples: u32,
+    /// Which of the replicates.
+    pub replicate: u32,
+}
+
+impl Draws {
+    /// ξ of sample `index` by independent draws: Philox 4×32-10 (Salmon et al. 2011) at the counter (index, block of
+    /// dimensions, replicate, N).
+    #[inline(always)]
+    pub fn independent(&self, index: u32) -> Xi<f32> {
+        Xi { words: philox4x32_10([index, 0, self.replicate, self.samples], self.key.0) }
+    }
+}
+
+/// Four random words of one sample, reached by name.
+#[derive(Clone, Copy, Debug)]
+pub struct Xi<R: Real> {
+    words: [R::Word; 4],
+}
+
+impl<R: Real> Xi<R> {
+    /// ξ of these words.
+    pub fn new(words: [R::Word; 4]) -> Self {
+        Self { words }
+    }
+
+    /// The word that picks the target and, rescaled, serves as u.
+    #[inline(always)]
+    pub fn pick(&self) -> R::Word {
+        self.words[0]
+    }
+
+    /// v: the second number of a point on a target.
+    #[inline(always)]
+    pub fn v(&self) -> R {
+        unit(self.words[1])
+    }
+
+    /// (u, v): two uniform numbers in (0, 1].
+    #[inline(always)]
+    pub fn uv(&self) -> [R; 2] {
+        [unit(self.words[0]), self.v()]
+    }
+
+    /// The raw words.
+    pub fn words(&self) -> [R::Word; 4] {
+        self.words
+    }
+}
+
+/// (w + 1/2) / 2³², rounded: uniform in (0, 1].
+#[inline(always)]
+fn unit<R: Real>(word: R::Word) -> R {
+    (R::from_word(word) + R::splat(0.5)) * R::splat(1.0 / 4_294_967_296.0)
+}

@@ -1,3 +1,12 @@
-//! The experiment. Skeleton.
+//! The experiment: strategies × samplers × sample counts × replicates → rows of means, variances and rates; and images.
 
+mod clock;
+pub mod experiment;
+pub mod image;
+mod measurement;
+pub mod place;
 pub mod result;
+mod rows;
+pub mod statistics;
+pub mod viewpoint;
+pub mod world;

@@ -6,9 +6,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-
-/// Luminance of linear RGB: 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709).
-pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+use twoforms_estimator::rgb::luminance;
 
 /// Reasons for missing values, by field name.
 pub type Why = BTreeMap<&'static str, String>;
@@ -24,8 +22,7 @@ pub struct Colour {
 
 impl From<[f64; 3]> for Colour {
     fn from(rgb: [f64; 3]) -> Self {
-        let luminance = rgb.iter().zip(LUMINANCE).map(|(c, weight)| c * weight).sum();
-        Self { rgb, luminance }
+        Self { rgb, luminance: luminance(rgb) }
     }
 }
 

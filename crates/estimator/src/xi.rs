@@ -25,23 +25,22 @@ impl Key {
     }
 }
 
-/// Which estimate a sample belongs to: sample counts and replicates have numbers of their own.
+/// The random numbers of one estimate: a key, and which of the key's streams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Draws {
     /// Who asks.
     pub key: Key,
-    /// N.
-    pub samples: u32,
-    /// Which of the replicates.
-    pub replicate: u32,
+    /// The stream: N and the replicate in a comparison, the pixel and its camera sample in an image.
+    pub stream: [u32; 2],
 }
 
 impl Draws {
     /// ξ of sample `index` by independent draws: Philox 4×32-10 (Salmon et al. 2011) at the counter (index, block of
-    /// dimensions, replicate, N).
+    /// four dimensions, stream).
     #[inline(always)]
     pub fn independent(&self, index: u32) -> Xi<f32> {
-        Xi { words: philox4x32_10([index, 0, self.replicate, self.samples], self.key.0) }
+        let [one, other] = self.stream;
+        Xi { words: philox4x32_10([index, 0, one, other], self.key.0) }
     }
 }
 

@@ -1,0 +1,176 @@
+//! The experiment: strategies × samplers × sample counts × replicates at each receiver.
+
+use rayon::prelude::*;
+use twoforms_estimator::query::Query;
+use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::strategy::{Prepared, Strategy};
+use twoforms_estimator::xi::Key;
+use twoforms_geometry::view::{Effort, View};
+
+use crate::clock;
+use crate::measurement::{Measurement, Task};
+use crate::place::{Place, Quantity};
+use crate::result::ReceiverResult;
+use crate::rows;
+use crate::world::World;
+
+/// What is compared, and how often.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Experiment {
+    /// The strategies.
+    pub strategies: Vec<Strategy>,
+    /// The samplers.
+    pub samplers: Vec<Sampler>,
+    /// N: the sample counts.
+    pub samples: Vec<u32>,
+    /// R: independent replicates of each.
+    pub replicates: u32,
+    /// The seed: equal seeds give equal results.
+    pub seed: u64,
+}
+
+/// A sample that came out infinite or not a number, and where: the run stops there.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{strategy} at receiver \"{receiver}\" (N = {samples}, replicate {replicate}): {source}; please report this with the scene"
+)]
+pub struct Broken {
+    /// The receiver.
+    pub receiver: String,
+    /// The strategy.
+    pub strategy: Strategy,
+    /// N.
+    pub samples: u32,
+    /// Which replicate.
+    pub replicate: u32,
+    /// The sample.
+    pub source: twoforms_estimator::estimator::NotFinite,
+}
+
+/// Receivers that are measured before any of them is reported.
+const RECEIVERS_AT_ONCE: usize = 64;
+/// Samples that one task draws, at least: enough to make a task's overhead vanish.
+const SAMPLES_PER_TASK: u64 = 1 << 15;
+
+/// One row to be measured: a strategy, a sampler, and N.
+pub(crate) struct Plan<'a> {
+    pub(crate) prepared: &'a Prepared,
+    pub(crate) sampler: Sampler,
+    pub(crate) samples: u32,
+}
+
+impl Plan<'_> {
+    pub(crate) fn pair(&self) -> (Strategy, Sampler) {
+        (self.prepared.strategy(), self.sampler)
+    }
+}
+
+impl Experiment {
+    /// Number of samples at each receiver, for progress bars.
+    pub fn samples_per_receiver(&self) -> u64 {
+        let each: u64 = self.samples.iter().map(|&n| u64::from(n)).sum();
+        each * u64::from(self.replicates) * (self.strategies.len() * self.samplers.len()) as u64
+    }
+
+    /// Measures every receiver, in parallel on rayon's threads. The results do not depend on how many there are.
+    ///
+    /// `progress` is told of samples drawn, from any thread.
+    ///
+    /// # Errors
+    /// When a sample is not finite.
+    pub fn run(
+        &self,
+        world: &World,
+        places: &[Place],
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<Vec<ReceiverResult>, Broken> {
+        let prepared: Vec<Prepared> = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect();
+        let plans = self.plans(&prepared);
+        let groups = places.chunks(RECEIVERS_AT_ONCE).map(|group| self.group(world, group, &plans, progress));
+        Ok(groups.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    fn plans<'a>(&self, prepared: &'a [Prepared]) -> Vec<Plan<'a>> {
+        let mut plans = Vec::new();
+        for prepared in prepared {
+            for &sampler in &self.samplers {
+                plans.extend(self.samples.iter().map(|&samples| Plan { prepared, sampler, samples }));
+            }
+        }
+        plans
+    }
+
+    fn group(
+        &self,
+        world: &World,
+        places: &[Place],
+        plans: &[Plan],
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<Vec<ReceiverResult>, Broken> {
+        let views: Vec<(View, f64)> = places
+            .par_iter()
+            .map(|place| clock::timed(|| View::new(&world.geometry, place.frame(), Effort::Gather)))
+            .collect();
+        let tasks: Vec<Task> =
+            (0..places.len()).flat_map(|p| (0..plans.len()).flat_map(move |r| self.tasks(p, r, &plans[r]))).collect();
+        let measured: Vec<Result<Measurement, Broken>> = tasks
+            .par_iter()
+            .map(|task| {
+                let (place, plan) = (&places[task.place], &plans[task.plan]);
+                let part = self.measure(world, place, &views[task.place].0, plan, task)?;
+                progress(u64::from(plan.samples) * task.replicates.len() as u64);
+                Ok(part)
+            })
+            .collect();
+        let parts = measured.into_iter().collect::<Result<Vec<Measurement>, Broken>>()?;
+        let mut parts = tasks.iter().zip(parts).peekable();
+        let results = places.iter().enumerate().map(|(p, place)| {
+            let rows = plans.iter().enumerate().map(|(r, plan)| {
+                let mut measurement = Measurement::default();
+                while let Some((_, part)) = parts.next_if(|(task, _)| (task.place, task.plan) == (p, r)) {
+                    measurement.add(part);
+                }
+                (plan, measurement)
+            });
+            rows::receiver_result(place, views[p].1, &rows.collect::<Vec<_>>(), &world.lights)
+        });
+        Ok(results.collect())
+    }
+
+    /// Cuts one row's replicates into tasks, by N and R alone.
+    fn tasks(&self, place: usize, plan: usize, row: &Plan) -> impl Iterator<Item = Task> + use<> {
+        let replicates = self.replicates;
+        let size = (SAMPLES_PER_TASK / u64::from(row.samples)).clamp(1, u64::from(replicates)) as u32;
+        let starts = (0..replicates).step_by(size as usize);
+        starts.map(move |start| Task { place, plan, replicates: start..replicates.min(start.saturating_add(size)) })
+    }
+
+    fn measure(
+        &self,
+        world: &World,
+        place: &Place,
+        view: &View,
+        plan: &Plan,
+        task: &Task,
+    ) -> Result<Measurement, Broken> {
+        let (query, emission) = match place.quantity {
+            Quantity::Irradiance => (Query::irradiance(&world.lights), [0.0; 3]),
+            Quantity::Radiance { albedo, emission } => (Query::radiance(&world.lights, albedo), emission),
+        };
+        let strategy = plan.prepared.strategy();
+        let key = self.key(place, strategy, plan.sampler);
+        Measurement::of(plan, view, &query, emission, key, task).map_err(|(replicate, source)| Broken {
+            receiver: place.name.clone(),
+            strategy,
+            samples: plan.samples,
+            replicate,
+            source,
+        })
+    }
+
+    fn key(&self, place: &Place, strategy: Strategy, sampler: Sampler) -> Key {
+        let names = format!("{}\n{sampler}", strategy.density_name());
+        let words = [self.seed].into_iter().chain(place.bits());
+        Key::new(words.chain(Key::words_of(&names)).collect::<Vec<u64>>())
+    }
+}

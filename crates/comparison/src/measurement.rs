@@ -1,0 +1,104 @@
+//! What replicates of one row come to.
+
+use std::ops::Range;
+
+use twoforms_estimator::density::Density;
+use twoforms_estimator::estimator::{self, Estimator, NotFinite};
+use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::moments::Moments;
+use twoforms_estimator::query::Query;
+use twoforms_estimator::rgb::luminance;
+use twoforms_estimator::strategy::Kernel;
+use twoforms_estimator::xi::{Draws, Key};
+use twoforms_geometry::view::View;
+
+use crate::clock;
+use crate::experiment::Plan;
+
+/// Some replicates of one row at one receiver.
+#[derive(Clone, Debug)]
+pub(crate) struct Task {
+    pub(crate) place: usize,
+    pub(crate) plan: usize,
+    pub(crate) replicates: Range<u32>,
+}
+
+/// All that is kept of the replicates of one row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Measurement {
+    /// Luminance of each replicate's estimate.
+    pub(crate) estimates: Vec<f64>,
+    /// Sum of the replicates' estimates, RGB.
+    pub(crate) total: [f64; 3],
+    /// Moments of single samples' luminances over all replicates.
+    pub(crate) one: Moments,
+    /// Rays asked for.
+    pub(crate) rays: u64,
+    /// Samples that were not zero.
+    pub(crate) hits: u64,
+    /// Range of the samples that were not zero.
+    pub(crate) range: estimator::Range,
+    /// CPU seconds.
+    pub(crate) seconds: f64,
+}
+
+impl Measurement {
+    /// Measures the replicates of `task`; the error names the replicate.
+    pub(crate) fn of(
+        plan: &Plan,
+        view: &View,
+        query: &Query,
+        emission: [f32; 3],
+        key: Key,
+        task: &Task,
+    ) -> Result<Self, (u32, NotFinite)> {
+        let replicates = Replicates { plan, key, range: task.replicates.clone(), emission };
+        let (measured, seconds) = clock::timed(|| plan.prepared.run(view, query, replicates));
+        Ok(Self { seconds, ..measured? })
+    }
+
+    /// Appends what the next replicates came to; they are appended in order.
+    pub(crate) fn add(&mut self, next: Self) {
+        self.estimates.extend(next.estimates);
+        self.total = std::array::from_fn(|c| self.total[c] + next.total[c]);
+        self.one = self.one + next.one;
+        self.rays += next.rays;
+        self.hits += next.hits;
+        self.range = self.range.with(next.range);
+        self.seconds += next.seconds;
+    }
+
+    fn push(&mut self, estimate: &estimator::Estimate, emission: [f32; 3]) {
+        let value: [f64; 3] = std::array::from_fn(|c| estimate.value[c] + f64::from(emission[c]));
+        self.estimates.push(luminance(value));
+        self.total = std::array::from_fn(|c| self.total[c] + value[c]);
+        self.one = self.one + estimate.luminance;
+        self.rays += estimate.rays;
+        self.hits += estimate.hits;
+        self.range = self.range.with(estimate.range);
+    }
+}
+
+struct Replicates<'a> {
+    plan: &'a Plan<'a>,
+    key: Key,
+    range: Range<u32>,
+    emission: [f32; 3],
+}
+
+impl Kernel for Replicates<'_> {
+    type Output = Result<Measurement, (u32, NotFinite)>;
+
+    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+        let Plan { sampler, samples, .. } = *self.plan;
+        let mut measurement = Measurement::default();
+        for replicate in self.range {
+            let draws = Draws { key: self.key, stream: [samples, replicate] };
+            let estimate = estimator
+                .secondary(samples, |index| sampler.xi(&draws, index))
+                .map_err(|not_finite| (replicate, not_finite))?;
+            measurement.push(&estimate, self.emission);
+        }
+        Ok(measurement)
+    }
+}

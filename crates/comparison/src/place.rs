@@ -1,0 +1,58 @@
+//! Places: where the light is measured.
+
+use glam::DVec3;
+use twoforms_geometry::frame::Frame;
+use twoforms_scene::{KnownAnswer, Receiver};
+
+/// A receiver x: where it is, which way it faces, and what is asked there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Its name.
+    pub name: String,
+    /// World position in metres.
+    pub position: DVec3,
+    /// World unit normal.
+    pub normal: DVec3,
+    /// What is asked.
+    pub quantity: Quantity,
+    /// The answer that the scene carries, for irradiance.
+    pub known: Option<KnownAnswer>,
+}
+
+/// What is asked of the light at x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Quantity {
+    /// ∫ L_e cosθ dω: f_r = 1.
+    Irradiance,
+    /// ∫ L_e f_r cosθ dω + emission, for a Lambertian surface.
+    Radiance {
+        /// ρ, RGB.
+        albedo: [f32; 3],
+        /// L_e toward the eye, RGB, from the surface itself.
+        emission: [f32; 3],
+    },
+}
+
+impl Place {
+    /// A scene's receiver, asked for irradiance.
+    pub fn of_receiver(receiver: &Receiver) -> Self {
+        Self {
+            name: receiver.name.clone(),
+            position: receiver.position,
+            normal: receiver.normal,
+            quantity: Quantity::Irradiance,
+            known: receiver.known.clone(),
+        }
+    }
+
+    /// The frame of x.
+    pub fn frame(&self) -> Frame {
+        Frame::new(self.position, self.normal)
+    }
+
+    /// The bits of position and normal: what random numbers are keyed by.
+    pub fn bits(&self) -> impl Iterator<Item = u64> + use<> {
+        let coordinates = [self.position.to_array(), self.normal.to_array()];
+        coordinates.into_iter().flatten().map(|c| (c + 0.0).to_bits())
+    }
+}

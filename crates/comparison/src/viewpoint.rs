@@ -1,0 +1,59 @@
+//! Viewpoints: the rays of a camera, and cameras that a scene does not carry.
+
+use glam::DVec3;
+use twoforms_geometry::mesh::Mesh;
+use twoforms_geometry::ray::Ray;
+use twoforms_scene::Camera;
+
+/// The ray through the point (x, y) of an image, in pixels from its top left corner; its direction is as long as the
+/// distance along the camera's axis is one metre. The vertical field of view is the camera's; pixels are square.
+pub fn ray(camera: &Camera, [x, y]: [f64; 2], [width, height]: [u32; 2]) -> Ray {
+    let (w, h) = (f64::from(width), f64::from(height));
+    let half = (0.5 * camera.yfov).tan();
+    let right = (2.0 * x - w) / h * half;
+    let up = (h - 2.0 * y) / h * half;
+    Ray::new(camera.position, camera.forward + camera.right * right + camera.up * up)
+}
+
+/// The vertical field of view of [`auto`], in radians: 45 degrees.
+const AUTO_FOV: f64 = std::f64::consts::FRAC_PI_4;
+
+/// A camera that looks at the whole scene from outside its bounding box: from the front (+z), above and to the right.
+/// `None` for a scene without triangles.
+pub fn auto(mesh: &Mesh) -> Option<Camera> {
+    let (low, high) = mesh.bounds()?;
+    let (low, high) = (low.as_dvec3(), high.as_dvec3());
+    let (centre, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
+    let distance = radius.max(f64::MIN_POSITIVE) / (0.5 * AUTO_FOV).sin();
+    let outward = DVec3::new(0.5, 0.4, 1.0).normalize();
+    look_at("auto", centre + outward * distance, centre, AUTO_FOV)
+}
+
+/// A camera at `eye` that looks at `target` (metres) with a vertical field of view in radians; up is +y, or −z where it
+/// looks straight up or down. `None` if the two points coincide.
+pub fn look_at(name: &str, eye: DVec3, target: DVec3, yfov: f64) -> Option<Camera> {
+    let forward = (target - eye).try_normalize()?;
+    let sideways = |up: DVec3| forward.cross(up).try_normalize();
+    let right = sideways(DVec3::Y).or_else(|| sideways(DVec3::NEG_Z))?;
+    let up = right.cross(forward);
+    Some(Camera { name: name.to_owned(), position: eye, right, up, forward, yfov, aspect: None })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{look_at, ray};
+    use glam::DVec3;
+
+    #[test]
+    fn the_centre_of_the_image_is_ahead_and_its_corners_are_where_the_field_of_view_says() {
+        let camera = look_at("c", DVec3::ZERO, DVec3::NEG_Z, std::f64::consts::FRAC_PI_2).expect("distinct points");
+        assert!(ray(&camera, [8.0, 4.0], [16, 8]).direction.abs_diff_eq(DVec3::NEG_Z, 1e-15));
+        assert!(ray(&camera, [0.0, 0.0], [16, 8]).direction.abs_diff_eq(DVec3::new(-2.0, 1.0, -1.0), 1e-15));
+    }
+
+    #[test]
+    fn looking_straight_down_has_a_frame() {
+        let camera = look_at("c", DVec3::Y, DVec3::ZERO, 1.0).expect("distinct points");
+        assert!(camera.up.abs_diff_eq(DVec3::NEG_Z, 1e-15) && camera.right.abs_diff_eq(DVec3::X, 1e-15));
+    }
+}

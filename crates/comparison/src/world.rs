@@ -1,0 +1,88 @@
+//! A scene made ready: its geometry and its lights.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use twoforms_estimator::lights::Lights;
+use twoforms_geometry::blocking;
+use twoforms_geometry::geometry::Geometry;
+use twoforms_geometry::ray::Ray;
+use twoforms_geometry::tracer::Region;
+use twoforms_scene::{Scene, SceneError};
+
+/// What a scene is made of, and where, with the hierarchy built.
+pub struct World {
+    /// Surfaces, cameras, receivers, warnings.
+    pub scene: Scene,
+    /// vp and V.
+    pub geometry: Geometry,
+    /// L_e and areas of the targets.
+    pub lights: Lights,
+}
+
+/// A point of a surface that a camera sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// World position in metres.
+    pub position: DVec3,
+    /// Geometric unit normal on the side that is seen.
+    pub normal: DVec3,
+    /// Distance along the ray, in units of its direction.
+    pub distance: f64,
+    /// Which triangle.
+    pub triangle: u32,
+    /// Whether the front is seen.
+    pub front: bool,
+}
+
+impl World {
+    /// Builds the hierarchy.
+    ///
+    /// # Errors
+    /// When the scene has no light: there is nothing to estimate.
+    pub fn new(scene: Scene) -> Result<Self, SceneError> {
+        scene.require_emitters()?;
+        let geometry = Geometry::new(scene.mesh.clone(), scene.targets.clone());
+        let lights = Lights::new(&scene);
+        Ok(Self { scene, geometry, lights })
+    }
+
+    /// The first surface along a ray.
+    pub fn see(&self, ray: &Ray) -> Option<Seen> {
+        let hit = self.geometry.vp(ray)?;
+        let cross = self.geometry.mesh().triangle(hit.triangle).cross().normalize();
+        let front = cross.dot(ray.direction) < 0.0;
+        let normal = if front { cross } else { -cross };
+        Some(Seen { position: ray.at(hit.t), normal, distance: hit.t, triangle: hit.triangle, front })
+    }
+
+    /// The surface that holds `position` and faces along `normal`, as seen from that side: one whose plane holds the
+    /// position by the blocking rule, and whose triangle lies under it.
+    pub fn surface_at(&self, position: DVec3, normal: DVec3) -> Option<Seen> {
+        let mesh = self.geometry.mesh();
+        let half = DVec3::splat(blocking::TOLERANCE * position.abs().max_element().max(f64::MIN_POSITIVE));
+        let sides =
+            [DVec3::X, DVec3::Y, DVec3::Z].iter().flat_map(|&axis| [(axis, axis.dot(half)), (-axis, axis.dot(half))]);
+        let region = Region { origin: position, half_spaces: sides.collect() };
+        let above = Ray::new(position + normal, -normal);
+        let mut found = None;
+        self.geometry.within(&region, |index| {
+            let triangle = mesh.triangle(index);
+            if blocking::plane_holds(&triangle, position) && above.distance(&triangle).is_some() {
+                let cross = triangle.cross().normalize();
+                let front = cross.dot(normal) > 0.0;
+                found = Some(Seen { position, normal, distance: 0.0, triangle: index, front });
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        found
+    }
+
+    /// L_e toward the eye from what is seen, RGB: black unless it is a light on a side that emits.
+    pub fn emission(&self, seen: &Seen) -> [f32; 3] {
+        let material = self.scene.material_of(seen.triangle);
+        let lit = self.geometry.target_of(seen.triangle).is_some() && (seen.front || material.double_sided);
+        if lit { material.emission } else { [0.0; 3] }
+    }
+}

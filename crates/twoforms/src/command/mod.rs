@@ -1,0 +1,6 @@
+//! One module per command.
+
+pub mod compare;
+pub mod completions;
+pub mod inspect;
+pub mod render;

@@ -10,11 +10,9 @@ use gltf::json::validation::Checked::Valid;
 use crate::document::Document;
 use crate::error::{Problem, malformed};
 use crate::extensions;
+use crate::limit::{LIMIT, too_large};
 use crate::numbers::{Integers, integer, number};
 use crate::view::Run;
-
-/// The most vertices, and the most triangles, that a scene may have; bounds what a small file can ask for.
-pub(crate) const LIMIT: usize = 1 << 25;
 
 /// The elements of one accessor without gaps, after sparse substitution.
 struct Packed<'a> {
@@ -125,7 +123,7 @@ impl Packed<'_> {
 
 fn count(index: usize, count: u64) -> Result<usize, Problem> {
     let held = usize::try_from(count).ok().filter(|&count| count <= LIMIT);
-    held.ok_or_else(|| Problem::TooLarge { place: place(index), limit: LIMIT })
+    held.ok_or_else(|| too_large(&place(index)))
 }
 
 fn place(index: usize) -> String {

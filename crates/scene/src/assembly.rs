@@ -1,18 +1,10 @@
-//! From placed nodes to one mesh in world space.
-
-use std::collections::BTreeSet;
+//! One mesh in world space, made of instances of primitives.
 
 use glam::{DAffine3, Vec3};
-use gltf::json::mesh::{Primitive, Semantic};
-use gltf::json::validation::Checked::Valid;
 use twoforms_geometry::mesh::Mesh;
 
-use crate::accessor::LIMIT;
-use crate::document::Document;
 use crate::error::{Problem, malformed};
-use crate::hierarchy::Placed;
-use crate::instances::{self, Instances};
-use crate::primitive::{self, Local};
+use crate::primitive::Local;
 use crate::surface::Surface;
 use crate::transform::carry_normal;
 use crate::warnings::Warnings;
@@ -25,99 +17,23 @@ pub(crate) struct Assembly {
 }
 
 /// Where an instance of a primitive goes, what it is called and made of.
-struct Instance {
-    name: String,
-    world: DAffine3,
-    material: usize,
-}
-
-/// Puts the meshes of all placed nodes together.
-pub(crate) fn assemble(
-    document: &Document<'_>,
-    placed: &[Placed],
-    warnings: &mut Warnings,
-) -> Result<Assembly, Problem> {
-    let mut assembly = Assembly::default();
-    for placed in placed {
-        assembly.add_node(document, placed, warnings)?;
-    }
-    warn_of_unplaced(document, placed, warnings);
-    Ok(assembly)
-}
-
-fn warn_of_unplaced(document: &Document<'_>, placed: &[Placed], warnings: &mut Warnings) {
-    let meshes = placed.iter().filter_map(|placed| document.root.nodes[placed.node].mesh);
-    let meshes: BTreeSet<usize> = meshes.map(|mesh| mesh.value()).collect();
-    for (index, mesh) in document.root.meshes.iter().enumerate().filter(|(index, _)| !meshes.contains(index)) {
-        let name = mesh.name.clone().unwrap_or_else(|| format!("meshes[{index}]"));
-        warnings.at("a mesh stands nowhere in the scene and is left out", &name);
-    }
+pub(crate) struct Instance {
+    pub name: String,
+    pub world: DAffine3,
+    pub material: usize,
 }
 
 impl Assembly {
-    fn add_node(&mut self, document: &Document<'_>, placed: &Placed, warnings: &mut Warnings) -> Result<(), Problem> {
-        let node = &document.root.nodes[placed.node];
-        let Some(index) = node.mesh.map(|mesh| mesh.value()) else {
-            return Ok(());
-        };
-        let mesh = &document.root.meshes[index];
-        let name = node.name.clone().or_else(|| mesh.name.clone());
-        let name = name.unwrap_or_else(|| document.node_name(placed.node));
-        if node.skin.is_some() {
-            warnings.at("a skinned mesh stands in its bind pose", &name);
-        }
-        let copies = instances::read(document, placed.node)?;
-        for (p, primitive) in mesh.primitives.iter().enumerate() {
-            let name = if mesh.primitives.len() > 1 { format!("{name}/{p}") } else { name.clone() };
-            let place = format!("meshes[{index}].primitives[{p}]");
-            let material = primitive.material.map_or(document.root.materials.len(), |m| m.value());
-            let original = Instance { name, world: placed.world, material };
-            if let Some(local) = read(document, primitive, &place, &original.name, warnings)? {
-                self.add_instances(&local, original, copies.as_ref(), warnings)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn add_instances(
-        &mut self,
-        local: &Local,
-        original: Instance,
-        copies: Option<&Instances>,
-        warnings: &mut Warnings,
-    ) -> Result<(), Problem> {
-        let Some(copies) = copies else {
-            self.check_room(local, 1, &original.name)?;
-            return self.add(local, original, warnings);
-        };
-        let place = format!("{:?}", original.name);
-        let differ = || malformed(&place, "has translations, rotations and scales that differ in number");
-        let count = copies.count().ok_or_else(differ)?;
-        self.check_room(local, count, &original.name)?;
-        for i in 0..count {
-            let name = format!("{}[{i}]", original.name);
-            let copy = copies.transform(i).map_err(|fault| malformed(format!("{name:?}"), fault))?;
-            self.add(local, Instance { name, world: original.world * copy, ..original }, warnings)?;
-        }
-        Ok(())
-    }
-
-    /// Checks that `count` instances more keep the scene within the limit.
-    fn check_room(&self, local: &Local, count: usize, name: &str) -> Result<(), Problem> {
-        let fits = |held: usize, more: usize| more.checked_mul(count).is_some_and(|more| held + more <= LIMIT);
-        let mesh = &self.mesh;
-        if fits(mesh.vertices.len(), local.positions.len()) && fits(mesh.triangles.len(), local.triangles.len()) {
-            return Ok(());
-        }
-        Err(Problem::TooLarge { place: format!("{name:?}"), limit: LIMIT })
-    }
-
-    fn add(
+    /// Adds one instance of a primitive; nothing where that has no triangle.
+    pub fn add(
         &mut self,
         local: &Local,
         Instance { name, world, material }: Instance,
         warnings: &mut Warnings,
     ) -> Result<(), Problem> {
+        if local.triangles.is_empty() {
+            return Ok(());
+        }
         let (vertices, triangles) = (self.mesh.vertices.len(), self.mesh.triangles.len());
         self.add_vertices(local, &world, &name)?;
         self.add_triangles(local, world.matrix3.determinant() < 0.0, vertices as u32);
@@ -155,30 +71,6 @@ impl Assembly {
         let triangles = local.triangles.iter().map(|&t| turned(t).map(|vertex| first + vertex));
         self.mesh.triangles.extend(triangles);
     }
-}
-
-/// Reads a primitive that has triangles; warns about what is left out of it.
-fn read(
-    document: &Document<'_>,
-    primitive: &Primitive,
-    place: &str,
-    name: &str,
-    warnings: &mut Warnings,
-) -> Result<Option<Local>, Problem> {
-    let Some(local) = primitive::read(document, primitive, place)? else {
-        warnings.at("points and lines have no area and are skipped", name);
-        return Ok(None);
-    };
-    if primitive.attributes.contains_key(&Valid(Semantic::Colors(0))) {
-        warnings.at("vertex colours are ignored", name);
-    }
-    if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-        warnings.at("morph targets are ignored", name);
-    }
-    if local.rest > 0 {
-        warnings.at("vertices that make no whole triangle are left over", name);
-    }
-    Ok(Some(local).filter(|local| !local.triangles.is_empty()))
 }
 
 /// Unit normals in the world; `None` where one has no direction.

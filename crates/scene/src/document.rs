@@ -22,6 +22,8 @@ pub(crate) struct Document<'a> {
     pub placements: Vec<Placement>,
     /// Whether something moves in it.
     pub animated: bool,
+    /// Whether attributes may be integers.
+    pub quantized: bool,
     /// The buffers by index.
     pub buffers: Vec<Buffer<'a>>,
 }
@@ -59,7 +61,8 @@ impl<'a> Document<'a> {
         validate(&root)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let buffers = buffer::read_all(&root, container.blob, folder)?;
-        Ok(Self { root, placements, animated: !animations.is_empty(), buffers })
+        let quantized = extensions::uses(&root, extensions::QUANTIZATION);
+        Ok(Self { root, placements, animated: !animations.is_empty(), quantized, buffers })
     }
 
     /// What messages call node `index`: its name, else its place in the file.

@@ -34,9 +34,9 @@ const IGNORED: [(&str, &str); 10] = [
     ("EXT_texture_webp", IMAGES),
 ];
 
-const GLOSS: &str = "is ignored: surfaces are diffuse";
-const OPAQUE: &str = "is ignored: surfaces are opaque";
-const IMAGES: &str = "is ignored: no texture is read";
+const GLOSS: &str = "surfaces are diffuse";
+const OPAQUE: &str = "surfaces are opaque";
+const IMAGES: &str = "no texture is read";
 
 /// Compression: refused where a file requires it.
 const COMPRESSION: [&str; 2] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
@@ -50,8 +50,10 @@ pub(crate) fn check(root: &Root) -> Result<(), Problem> {
 /// Warns about what the file uses and this crate ignores.
 pub(crate) fn warn(root: &Root, warnings: &mut Warnings) {
     for name in &root.extensions_used {
-        if let Some(effect) = effect(name) {
-            warnings.say(&format!("the extension {name:?} {effect}"));
+        match IGNORED.iter().find(|(ignored, _)| ignored == name) {
+            Some((_, effect)) => warnings.at(&format!("an extension is ignored, {effect}"), name),
+            None if READ.contains(&name.as_str()) => {}
+            None => warnings.at("an extension is ignored, it is not known here", name),
         }
     }
 }
@@ -74,13 +76,4 @@ fn refusal(name: &str) -> Problem {
     let remedy = if COMPRESSION.contains(&name) { UNPACK } else { "export the scene without it" };
     let what = format!("the file requires the extension {name:?}, which is not read");
     Problem::Unsupported { what, remedy: remedy.into() }
-}
-
-fn effect(name: &str) -> Option<&'static str> {
-    let ignored = IGNORED.iter().find(|(ignored, _)| *ignored == name);
-    match ignored {
-        Some((_, effect)) => Some(effect),
-        None if READ.contains(&name) => None,
-        None => Some("is ignored: it is not known here"),
-    }
 }

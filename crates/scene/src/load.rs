@@ -4,11 +4,12 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::assembly::{Assembly, assemble};
+use crate::assembly::Assembly;
 use crate::buffer::read_plain;
 use crate::document::Document;
 use crate::error::Problem;
 use crate::light::Lights;
+use crate::nodes::assemble;
 use crate::scene::Scene;
 use crate::warnings::Warnings;
 use crate::{camera, extensions, hierarchy, light, lost, material, receiver};
@@ -38,12 +39,13 @@ fn read(document: &Document<'_>, warnings: &mut Warnings) -> Result<Scene, Probl
     let materials = material::read(&document.root, &surfaces, warnings)?;
     light::refuse_textured(&document.root, &surfaces, &materials)?;
     let Lights { targets, lights } = light::find(&mesh, &mut surfaces, &materials, warnings);
+    let receivers = receiver::read(document, &placed, warnings)?;
     Ok(Scene {
         cameras: camera::read(document, &placed, warnings)?,
-        receivers: receiver::read(document, &placed, warnings)?,
         punctual_lights: lost::punctual(document, &placed, warnings),
-        lost_lights: lost::empty(document, &placed, warnings),
-        mesh,
+        lost_lights: lost::empty(document, &placed, &receivers, warnings),
+        receivers,
+        mesh: mesh.into(),
         surfaces,
         materials,
         targets,

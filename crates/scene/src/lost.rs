@@ -4,6 +4,7 @@ use gltf::json::Node;
 
 use crate::document::Document;
 use crate::hierarchy::Placed;
+use crate::receiver::Receiver;
 use crate::warnings::Warnings;
 
 /// Counts the nodes with point, spot and directional lights.
@@ -12,9 +13,16 @@ pub(crate) fn punctual(document: &Document<'_>, placed: &[Placed], warnings: &mu
     lights.map(|placed| warn(document, placed, "a punctual light has no area and is ignored", warnings)).count()
 }
 
-/// Names of the empty nodes that are named like lights.
-pub(crate) fn empty(document: &Document<'_>, placed: &[Placed], warnings: &mut Warnings) -> Vec<String> {
-    let lost = placed.iter().filter(|placed| is_lost(&document.root.nodes[placed.node]));
+/// Names of the empty nodes that are named like lights and are no receivers.
+pub(crate) fn empty(
+    document: &Document<'_>,
+    placed: &[Placed],
+    receivers: &[Receiver],
+    warnings: &mut Warnings,
+) -> Vec<String> {
+    let receives = |node: &Node| receivers.iter().any(|receiver| node.name.as_ref() == Some(&receiver.name));
+    let nodes = placed.iter().map(|placed| (placed, &document.root.nodes[placed.node]));
+    let lost = nodes.filter(|(_, node)| is_lost(node) && !receives(node)).map(|(placed, _)| placed);
     lost.map(|placed| warn(document, placed, "an empty node is named like a light and gives none", warnings)).collect()
 }
 

@@ -6,7 +6,6 @@ use gltf::json::validation::Checked::Valid;
 
 use crate::document::Document;
 use crate::error::{Problem, malformed};
-use crate::extensions::{QUANTIZATION, uses};
 use crate::numbers::Integers;
 
 /// The triangles of a primitive as the file gives them.
@@ -37,8 +36,7 @@ pub(crate) fn read(document: &Document<'_>, primitive: &Primitive, place: &str) 
 }
 
 fn positions(document: &Document<'_>, accessor: usize) -> Result<Vec<Vec3>, Problem> {
-    let quantized = uses(&document.root, QUANTIZATION);
-    let integers = if quantized { Integers::Small } else { Integers::Refused };
+    let integers = if document.quantized { Integers::Small } else { Integers::Refused };
     let positions = document.vectors(accessor, integers)?;
     Ok(positions.into_iter().map(Vec3::from_array).collect())
 }
@@ -47,8 +45,7 @@ fn normals(document: &Document<'_>, primitive: &Primitive, count: usize) -> Resu
     let Some(accessor) = primitive.attributes.get(&Valid(Semantic::Normals)) else {
         return Ok(None);
     };
-    let quantized = uses(&document.root, QUANTIZATION);
-    let integers = if quantized { Integers::Normalized } else { Integers::Refused };
+    let integers = if document.quantized { Integers::Normalized } else { Integers::Refused };
     let normals = document.vectors(accessor.value(), integers)?;
     if normals.len() != count {
         let fault = format!("has {} normals for {count} positions", normals.len());

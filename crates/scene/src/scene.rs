@@ -1,6 +1,7 @@
 //! The scene: all that later stages read.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use twoforms_geometry::mesh::Mesh;
 use twoforms_geometry::target::Target;
@@ -20,8 +21,8 @@ pub struct Scene {
     pub path: PathBuf,
     /// SHA-256 in hexadecimal of the file, followed by the buffer files that it names, in order.
     pub sha256: String,
-    /// All triangles. Vertices that a primitive shares stay shared.
-    pub mesh: Mesh,
+    /// All triangles. Vertices that a primitive shares stay shared. Counted, since the hierarchy holds it too.
+    pub mesh: Arc<Mesh>,
     /// One per instance of a primitive, in scene order (nodes depth first, primitives in order); their runs of
     /// triangles follow one another without a gap.
     pub surfaces: Vec<Surface>,

@@ -26,7 +26,8 @@ fn directions_are_unit() {
 
 #[test]
 fn azimuths_fall_where_they_should() {
-    for (turns, expected) in [(0.0, [1.0, 0.0]), (0.25, [0.0, 1.0]), (0.5, [-1.0, 0.0]), (0.75, [0.0, -1.0]), (1.0, [1.0, 0.0])]
+    for (turns, expected) in
+        [(0.0, [1.0, 0.0]), (0.25, [0.0, 1.0]), (0.5, [-1.0, 0.0]), (0.75, [0.0, -1.0]), (1.0, [1.0, 0.0])]
     {
         let [x, y, z] = Direction::polar(0.6_f32, 0.8, turns).vector().to_array();
         assert_eq!(([x, y], z), (expected.map(|c: f32| c * 0.8), 0.6), "{turns} turns");

@@ -67,7 +67,9 @@ fn attack(closed: &Closed, kind: usize, draws: &mut Draws) -> Ray {
 fn escapes(closed: &Closed, geometry: &Geometry, rays: usize, seed: u64) -> Vec<Ray> {
     let mut draws = Draws::new(seed);
     let got_out = |ray: &Ray| {
-        geometry.vp(ray).is_none_or(|hit| outward(geometry.mesh(), hit.triangle, ray) < 0.0 && first_back(geometry.mesh(), ray) > hit.t)
+        geometry.vp(ray).is_none_or(|hit| {
+            outward(geometry.mesh(), hit.triangle, ray) < 0.0 && first_back(geometry.mesh(), ray) > hit.t
+        })
     };
     (0..rays).map(|k| attack(closed, k % 6, &mut draws)).filter(got_out).collect()
 }

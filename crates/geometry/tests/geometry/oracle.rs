@@ -5,6 +5,7 @@ use twoforms_geometry::blocking::plane_holds;
 use twoforms_geometry::geometry::Geometry;
 use twoforms_geometry::mesh::Triangle;
 use twoforms_geometry::ray::Ray;
+use twoforms_geometry::target::Target;
 
 /// Six times the signed volume of the tetrahedron abcd.
 fn volume(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
@@ -47,7 +48,7 @@ pub fn nearest_change(geometry: &Geometry, x: DVec3, direction: DVec3) -> f64 {
             (n, n.dot(a))
         })
         .collect();
-    let of_targets = geometry.targets().iter().flat_map(|target| target.triangles()).map(|t| planes[t as usize]);
+    let of_targets = geometry.targets().iter().flat_map(Target::triangles).map(|t| planes[t as usize]);
     let meetings = of_targets.flat_map(|(m, d)| planes.iter().map(move |&(n, s)| d * n - s * m));
     let angle = |plane: DVec3| plane.normalize_or(direction).dot(direction).abs();
     edges.chain(meetings).map(angle).fold(f64::INFINITY, f64::min)

@@ -61,7 +61,12 @@ fn scaled_by_a_power_of_two_the_view_gives_the_same_bits() {
                 let psi = Segment::to(&y).psi;
                 assert_eq!(psi, Segment::to(&y_there).psi);
                 same_reached(&view, &view_there, psi, scale_f32);
-                same_reached(&view, &view_there, Direction::polar(uv[0], (1.0 - uv[0] * uv[0]).sqrt(), uv[1]), scale_f32);
+                same_reached(
+                    &view,
+                    &view_there,
+                    Direction::polar(uv[0], (1.0 - uv[0] * uv[0]).sqrt(), uv[1]),
+                    scale_f32,
+                );
             }
         }
     }
@@ -111,7 +116,8 @@ fn a_kilometre_away_nothing_leaks_and_hits_agree_to_the_rounding_of_vertices() {
             assert!((hit.t - there.t).abs() <= allowed, "{} and {}, allowed {allowed}", hit.t, there.t);
         } else {
             others += 1;
-            let gap = nearest_edge(here.mesh(), hit.triangle, &ray).min(nearest_edge(here.mesh(), there.triangle, &ray));
+            let gap =
+                nearest_edge(here.mesh(), hit.triangle, &ray).min(nearest_edge(here.mesh(), there.triangle, &ray));
             assert!(gap <= 2.0 * moved_by_rounding, "another triangle {gap} m from an edge: {hit:?}, {there:?}");
         }
     }

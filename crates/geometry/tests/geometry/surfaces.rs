@@ -80,7 +80,8 @@ fn the_floor_beside_a_wall_sees_the_wall() {
                 assert!(hit.is_some(), "from {gap} m beside the wall along {up} out of the room");
             }
             if gap <= tolerance {
-                let wall = hit.is_some_and(|hit| geometry.mesh().triangle(hit.triangle).vertices().iter().all(|v| v.x == 0.0));
+                let wall =
+                    hit.is_some_and(|hit| geometry.mesh().triangle(hit.triangle).vertices().iter().all(|v| v.x == 0.0));
                 assert!(!wall, "a wall whose plane holds x was met");
             }
         }

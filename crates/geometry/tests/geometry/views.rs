@@ -37,12 +37,17 @@ fn blocker(mesh: &Mesh, target: &Target, frame: &Frame, draws: &mut Draws) -> [V
     let normal = e.cross(f).normalize();
     let [s, t] = [draws.unit(), draws.unit()];
     let on_light = corner(0) + (e * (1.0 - s.sqrt())) + f * (s.sqrt() * t);
-    let size = draws.between(0.02, 0.6);
+    let size = 10.0_f64.powf(draws.between(-3.0, -0.2));
     let around = |centre: DVec3, draws: &mut Draws| [(); 3].map(|()| centre + draws.in_cube() * size);
     let in_plane = |lift: f64, draws: &mut Draws| {
         [(); 3].map(|()| on_light + e * draws.between(-1.0, 1.0) + f * draws.between(-1.0, 1.0) + normal * lift)
     };
-    let vertices = match draws.below(9) {
+    let through_x = |draws: &mut Draws| {
+        let (s, t) = (draws.in_cube(), draws.in_cube());
+        [frame.x() + s, frame.x() + t, frame.x() - (s + t) * draws.unit()]
+    };
+    let at_foot = |draws: &mut Draws| around(frame.x() + draws.direction() * size, draws);
+    let vertices = match draws.below(11) {
         0 => around(draws.in_cube(), draws),
         1 => around(on_light, draws),
         2 => [corner(0), corner(1), draws.in_cube()],
@@ -51,6 +56,8 @@ fn blocker(mesh: &Mesh, target: &Target, frame: &Frame, draws: &mut Draws) -> [V
         5 => in_plane(0.0, draws),
         6 => in_plane(10.0_f64.powf(draws.between(-4.0, -1.0)), draws),
         7 => around(on_light + (on_light - frame.x()) * draws.unit(), draws),
+        8 => through_x(draws),
+        9 => at_foot(draws),
         _ => around(frame.x().lerp(on_light, draws.unit()), draws),
     };
     vertices.map(DVec3::as_vec3)
@@ -58,7 +65,8 @@ fn blocker(mesh: &Mesh, target: &Target, frame: &Frame, draws: &mut Draws) -> [V
 
 fn frame(draws: &mut Draws) -> Frame {
     let n_x = if draws.chance(0.3) { DVec3::NEG_Y } else { draws.direction() };
-    Frame::new(draws.in_cube(), n_x)
+    let x = draws.in_cube();
+    Frame::new(if draws.chance(0.5) { x.as_vec3().as_dvec3() } else { x }, n_x)
 }
 
 /// Targets and triangles around them, as x meets them.

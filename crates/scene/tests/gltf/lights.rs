@@ -1,11 +1,9 @@
 //! Lights: what emits, from which pieces and how much.
 
-mod support;
-
 use std::f64::consts::PI;
 
+use crate::support::{File, SQUARE};
 use serde_json::json;
-use support::{File, SQUARE};
 use twoforms_geometry::target::{Shape, Sides};
 use twoforms_scene::Scene;
 
@@ -196,15 +194,15 @@ fn what_is_not_read_is_said_once() {
     assert_eq!(
         file.scene().warnings,
         [
-            r#"the extension "KHR_materials_sheen" is ignored: surfaces are diffuse"#,
-            r#"the extension "KHR_materials_volume" is ignored: surfaces are opaque"#,
-            r#"the extension "ACME_dust" is ignored: it is not known here"#,
-            r#"the extension "KHR_texture_basisu" is ignored: no texture is read"#,
+            r#"an extension is ignored, surfaces are diffuse: "KHR_materials_sheen""#,
+            r#"an extension is ignored, surfaces are opaque: "KHR_materials_volume""#,
+            r#"an extension is ignored, it is not known here: "ACME_dust""#,
+            r#"an extension is ignored, no texture is read: "KHR_texture_basisu""#,
             "animations are ignored: nodes stand in their rest pose",
+            r#"a mesh stands nowhere in the scene and is left out: "meshes[2]""#,
             r#"vertex colours are ignored: "a""#,
             r#"morph targets are ignored: "a""#,
             r#"a skinned mesh stands in its bind pose: "b""#,
-            r#"a mesh stands nowhere in the scene and is left out: "meshes[2]""#,
             r#"textures are ignored, factors alone count: 2 ("a", "b")"#,
             r#"alpha is ignored, surfaces are opaque: 2 ("a", "b")"#,
         ]

@@ -1,11 +1,9 @@
 //! Files that are refused, each with a sentence that says what, where and what to do.
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::{BYTE, FLOAT, File, SHORT, UNSIGNED_INT, UNSIGNED_SHORT};
 use serde_json::{Value, json};
-use support::{BYTE, FLOAT, File, SHORT, UNSIGNED_INT, UNSIGNED_SHORT};
 use twoforms_scene::Scene;
 
 fn lit_square() -> File {
@@ -141,7 +139,7 @@ fn numbers_that_are_none_are_refused() {
 fn indices_stay_below_the_number_of_vertices() {
     for (index, count) in [(4, 4), (u16::MAX, 4)] {
         let mut file = File::new();
-        let mesh = file.triangles(&support::SQUARE, &[0, 1, index], None);
+        let mesh = file.triangles(&crate::support::SQUARE, &[0, 1, index], None);
         file.node(json!({"mesh": mesh}));
         assert!(file.refusal().contains(&format!("accessors[1] has index {index} for {count} vertices")));
     }

@@ -1,5 +1,4 @@
 //! Small glTF files, made in memory.
-#![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::path::Path;
 

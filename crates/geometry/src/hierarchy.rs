@@ -111,17 +111,22 @@ struct Slabs {
 /// distance takes some tens of them against terms of its own size.
 const SLACK: f64 = 1e-12;
 
+/// Takes the place of a component of the direction that is zero, so that no product is 0·∞.
+const TINY: f64 = 1e-200;
+/// How far the faces of a box move apart, so that a ray within a face meets the box: next to nothing in any scene, but
+/// much where the ray does not move at all.
+const FACE: f64 = 1e-100;
+
 impl Slabs {
     fn new(ray: &Ray) -> Self {
-        // A component that is zero becomes tiny instead, so that no product is 0·∞.
-        let inverse = ray.direction.to_array().map(|d| 1.0 / if d.abs() < 1e-290 { 1e-290_f64.copysign(d) } else { d });
+        let inverse = ray.direction.to_array().map(|d| 1.0 / if d.abs() < TINY { TINY.copysign(d) } else { d });
         Self { origin: ray.origin, inverse: DVec3::from_array(inverse) }
     }
 
     /// Distance at which the ray enters the box, if it meets it.
     #[inline]
     fn enter(&self, low: DVec3, high: DVec3) -> Option<f64> {
-        let (one, other) = ((low - self.origin) * self.inverse, (high - self.origin) * self.inverse);
+        let (one, other) = ((low - self.origin - FACE) * self.inverse, (high - self.origin + FACE) * self.inverse);
         let near = one.min(other).max_element().max(0.0);
         let far = one.max(other).min_element();
         (near <= far * (1.0 + SLACK)).then_some(near)

@@ -16,11 +16,13 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// The cone with these inward plane normals (any length, local); at most four. Repeats the last one to fill up.
-    pub(crate) fn new(planes: &[DVec3]) -> Self {
-        let last = planes.len().saturating_sub(1);
-        let plane = |k: usize| planes.get(k.min(last)).map_or([0.0; 3], |n| round(n.normalize_or_zero()));
-        Self { planes: [plane(0), plane(1), plane(2), plane(3)] }
+    /// The cone with these inward plane normals (any length, local): the first four. Missing ones bound nothing.
+    pub(crate) fn new(normals: impl IntoIterator<Item = DVec3>) -> Self {
+        let mut planes = [[0.0; 3]; 4];
+        for (plane, normal) in planes.iter_mut().zip(normals) {
+            *plane = round(normal.normalize_or_zero());
+        }
+        Self { planes }
     }
 
     /// Whether a direction (of any length) lies in the cone or on its boundary.

@@ -104,8 +104,7 @@ impl Wide {
 
     /// The cone of directions that meet it.
     pub(crate) fn outline(&self) -> Cone {
-        let planes: Vec<DVec3> = edge_planes(self.corners()).collect();
-        Cone::new(&planes)
+        Cone::new(edge_planes(self.corners()))
     }
 
     /// Whether x is on a side that emits.

@@ -21,6 +21,7 @@ use crate::vector::{Direction, Vector};
 
 pub use cone::Cone;
 pub use facet::Facet;
+use facet::Wide;
 pub use sight::{Between, Sight};
 
 /// Most targets that a view looks at one by one; beyond, rays find them.
@@ -90,6 +91,10 @@ impl<'g> View<'g> {
             }),
         };
         let target = R::select_word(reached, target, R::splat_word(0));
+        if !reached.any() {
+            let nowhere = SurfacePoint { position: psi.vector(), depth: R::zero(), target };
+            return Masked::new(nowhere, reached);
+        }
         Masked::new(self.facet::<R>(target).point_along(psi, target), reached)
     }
 
@@ -152,8 +157,7 @@ impl<'g> View<'g> {
     /// Casts a ray in a local direction toward the plane of a target.
     fn clear(&self, toward: [f32; 3], target: u32) -> bool {
         let local = DVec3::from_array(toward.map(f64::from));
-        let facet = Facet::wide(self.geometry, &self.frame, target);
-        let before = facet.distance_along(local);
+        let before = self.wide(target).distance_along(local);
         let ray = Ray::new(self.frame.x(), self.frame.to_world(local));
         self.geometry.visible(&ray, before, target)
     }
@@ -163,20 +167,27 @@ impl<'g> View<'g> {
         let local = DVec3::from_array(psi.map(f64::from));
         let hit = self.geometry.vp(&Ray::new(self.frame.x(), self.frame.to_world(local)))?;
         let target = self.geometry.target_of(hit.triangle)?;
-        Facet::wide(self.geometry, &self.frame, target).faces_x().then_some(target)
+        self.wide(target).faces_x().then_some(target)
     }
 
     fn outline(&self, target: u32) -> Cone {
         match &self.sights {
             Some(sights) => *sights[target as usize].outline(),
-            None => Facet::wide(self.geometry, &self.frame, target).outline(),
+            None => self.wide(target).outline(),
         }
     }
 
     fn facet_row(&self, target: u32) -> [f32; facet::ROW] {
         match &self.sights {
             Some(sights) => sights[target as usize].row(),
-            None => Facet::wide(self.geometry, &self.frame, target).row(),
+            None => self.wide(target).row(),
+        }
+    }
+
+    fn wide(&self, target: u32) -> Wide {
+        match &self.sights {
+            Some(sights) => *sights[target as usize].facet(),
+            None => Facet::wide(self.geometry, &self.frame, target),
         }
     }
 }

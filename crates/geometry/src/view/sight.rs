@@ -20,6 +20,7 @@ const MANY_CANDIDATES: usize = 8 * MANY_BLOCKERS;
 /// One target as x sees it.
 #[derive(Clone, Debug)]
 pub struct Sight {
+    facet: Wide,
     row: [f32; ROW],
     lit: bool,
     outline: Cone,
@@ -38,14 +39,13 @@ pub enum Between {
 impl Sight {
     pub(crate) fn new(geometry: &Geometry, frame: &Frame, target: u32, effort: Effort) -> Self {
         let facet = Facet::wide(geometry, frame, target);
-        let visible = above_horizon(facet.corners());
-        let lit = facet.faces_x() && visible.len() >= 3;
+        let lit = facet.faces_x() && facet.corners().iter().any(|corner| corner.z > 0.0);
         let between = match effort {
-            Effort::Gather if lit => gather(geometry, frame, target, &facet, &visible),
+            Effort::Gather if lit => gather(geometry, frame, target, &facet),
             Effort::Gather => Between::Gathered(Vec::new()),
             Effort::Cast => Between::Unknown,
         };
-        Self { row: facet.row(), lit, outline: facet.outline(), between }
+        Self { facet, row: facet.row(), lit, outline: facet.outline(), between }
     }
 
     /// Whether light can come from it at all: x on a side that emits, some of it above x's horizon.
@@ -61,6 +61,10 @@ impl Sight {
     /// What stands between.
     pub fn between(&self) -> &Between {
         &self.between
+    }
+
+    pub(crate) fn facet(&self) -> &Wide {
+        &self.facet
     }
 
     pub(crate) fn row(&self) -> [f32; ROW] {
@@ -85,8 +89,9 @@ fn above_horizon(corners: &[DVec3]) -> Vec<DVec3> {
 
 /// Everything that can stand between x and the visible part of a target: one query with the pyramid over it, then each
 /// candidate against the pyramid and the pyramid against it.
-fn gather(geometry: &Geometry, frame: &Frame, target: u32, facet: &Wide, visible: &[DVec3]) -> Between {
-    let pyramid: Vec<DVec3> = edge_planes(visible).collect();
+fn gather(geometry: &Geometry, frame: &Frame, target: u32, facet: &Wide) -> Between {
+    let visible = above_horizon(facet.corners());
+    let pyramid: Vec<DVec3> = edge_planes(&visible).collect();
     let mut cones = Vec::new();
     let mut candidates = 0;
     let mut too_many = false;
@@ -96,7 +101,7 @@ fn gather(geometry: &Geometry, frame: &Frame, target: u32, facet: &Wide, visible
             let blocker = geometry.mesh().triangle(triangle);
             if !blocking::plane_holds(&blocker, frame.x()) {
                 let corners = blocker.vertices().map(|v| frame.localize(v));
-                cones.extend(between(corners, facet, &pyramid, visible));
+                cones.extend(between(corners, facet, &pyramid, &visible));
             }
         }
         too_many = cones.len() > MANY_BLOCKERS || candidates > MANY_CANDIDATES;
@@ -129,7 +134,7 @@ fn between(corners: [DVec3; 3], facet: &Wide, pyramid: &[DVec3], visible: &[DVec
         planes.push(in_front(corners, m, d));
     }
     let misses = planes.iter().any(|inward| visible.iter().all(|v| inward.dot(*v) <= 0.0));
-    (!misses).then(|| Cone::new(&planes))
+    (!misses).then(|| Cone::new(planes))
 }
 
 fn in_front([a, b, c]: [DVec3; 3], m: DVec3, d: f64) -> DVec3 {

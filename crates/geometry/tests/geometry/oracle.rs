@@ -20,8 +20,17 @@ fn crosses(x: DVec3, y: DVec3, triangle: &Triangle) -> bool {
     through && volume(a, b, c, x) * volume(a, b, c, y) < 0.0
 }
 
+/// Where the line from x to y meets the plane of a target: y itself, but for its rounding to binary32.
+fn in_plane(geometry: &Geometry, x: DVec3, y: DVec3, target: u32) -> DVec3 {
+    let corners = geometry.targets()[target as usize].corners(geometry.mesh());
+    let corner = |k: usize| corners.as_slice()[k].as_dvec3() - x;
+    let normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    x + (y - x) * (normal.dot(corner(0)) / normal.dot(y - x))
+}
+
 /// V(x, y) of a point on a target: no triangle that may block it is crossed.
 pub fn visible(geometry: &Geometry, x: DVec3, y: DVec3, target: u32) -> bool {
+    let y = in_plane(geometry, x, y, target);
     let blocks = |index: u32| {
         let triangle = geometry.mesh().triangle(index);
         geometry.may_block(index, target) && !plane_holds(&triangle, x) && crosses(x, y, &triangle)

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 /// The great-circle arc that an edge v→w describes on the unit sphere about x.
 ///
-/// p(t) = u cos t + q sin t, 0 <= t <= Θ, with u = v/|v| and q = G × u; G = v × (w − v) / |…| is the unit normal that points
-/// into a polygon whose vertices run around its outward direction. (v × (w − v), not v × w: the difference of neighbours
-/// is exact, so a short edge keeps its digits.)
+/// p(t) = u cos t + q sin t, 0 <= t <= Θ, with u = v/|v| and q = G × u; G = v × (w − v) / |…| is
+/// the unit normal that points into a polygon whose vertices run around its outward direction. (v ×
+/// (w − v), not v × w: the difference of neighbours is exact, so a short edge keeps its digits.)
 #[derive(Clone, Copy, Debug)]
 pub struct Arc {
     /// Unit normal of the arc's plane, pointing into the polygon.
@@ -26,7 +26,8 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// The arc of the edge from `v` to `w`, whose lengths are given; `None` when it has no length or runs through x.
+    /// The arc of the edge from `v` to `w`, whose lengths are given; `None` when it has no length
+    /// or runs through x.
     pub fn new(v: DVec3, v_length: f64, w: DVec3, w_length: f64) -> Option<Self> {
         let edge = w - v;
         let cross = v.cross(edge);
@@ -66,7 +67,8 @@ pub struct ArcIntegrals {
 }
 
 impl ArcIntegrals {
-    /// With a = a₀ cos t + a₁ sin t and b likewise, every product is a sum of ∫ cosⁱ t sinʲ t dt, which are elementary.
+    /// With a = a₀ cos t + a₁ sin t and b likewise, every product is a sum of ∫ cosⁱ t sinʲ t dt,
+    /// which are elementary.
     pub fn new(arc: &Arc, n_x: DVec3, m: DVec3) -> Self {
         let (a0, a1) = (n_x.dot(arc.u), n_x.dot(arc.q));
         let (b0, b1) = (m.dot(arc.u), m.dot(arc.q));
@@ -74,8 +76,8 @@ impl ArcIntegrals {
         let (ss, cc, sc) = (s * s, c * c, s * c);
         // ∫ cos² = (Θ + sin Θ cos Θ)/2, ∫ cos sin = sin² Θ/2, ∫ sin² = (Θ − sin Θ cos Θ)/2
         let (i20, i11, i02) = (0.5 * (theta + sc), 0.5 * ss, 0.5 * (theta - sc));
-        // ∫ cos⁴ = (3Θ + 3sc + 2sc³)/8, ∫ cos³ sin = s²(1 + c²)/4, ∫ cos² sin² = (Θ + sc − 2sc³)/8, ∫ cos sin³ = s⁴/4,
-        // ∫ sin⁴ = (3Θ − 3sc − 2s³c)/8
+        // ∫ cos⁴ = (3Θ + 3sc + 2sc³)/8, ∫ cos³ sin = s²(1 + c²)/4, ∫ cos² sin² = (Θ + sc − 2sc³)/8,
+        // ∫ cos sin³ = s⁴/4, ∫ sin⁴ = (3Θ − 3sc − 2s³c)/8
         let i40 = 0.125 * (3.0 * (theta + sc) + 2.0 * sc * cc);
         let i31 = 0.25 * ss * (1.0 + cc);
         let i22 = 0.125 * (theta + sc - 2.0 * sc * cc);

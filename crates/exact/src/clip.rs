@@ -12,8 +12,9 @@ pub struct Halves {
 }
 
 impl Halves {
-    /// Cuts `polygon` by the plane through x with unit `normal`. Vertices within `tolerance` metres of the plane lie on it,
-    /// so that no sliver thinner than rounding is cut off. (Sutherland and Hodgman 1974, both sides at once.)
+    /// Cuts `polygon` by the plane through x with unit `normal`. Vertices within `tolerance` metres
+    /// of the plane lie on it, so that no sliver thinner than rounding is cut off. (Sutherland and
+    /// Hodgman 1974, both sides at once.)
     pub fn cut(&mut self, polygon: &[DVec3], normal: DVec3, tolerance: f64) {
         self.front.clear();
         self.back.clear();
@@ -48,19 +49,12 @@ impl Halves {
 }
 
 fn snapped(distance: f64, tolerance: f64) -> f64 {
-    if distance.abs() <= tolerance {
-        0.0
-    } else {
-        distance
-    }
+    if distance.abs() <= tolerance { 0.0 } else { distance }
 }
 
-/// Where the edge meets the plane, computed from its front end whichever way it runs: neighbours get the same point.
+/// Where the edge meets the plane, computed from its front end whichever way it runs: neighbours
+/// get the same point.
 fn crossing(p: DVec3, d_p: f64, q: DVec3, d_q: f64) -> DVec3 {
-    let (front, d_front, back, d_back) = if d_p > 0.0 {
-        (p, d_p, q, d_q)
-    } else {
-        (q, d_q, p, d_p)
-    };
+    let (front, d_front, back, d_back) = if d_p > 0.0 { (p, d_p, q, d_q) } else { (q, d_q, p, d_p) };
     front + (back - front) * (d_front / (d_front - d_back))
 }

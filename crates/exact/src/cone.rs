@@ -7,16 +7,18 @@ use crate::value::EPSILON;
 
 /// A convex cone with its apex at x: where a blocker stands before a facet's plane.
 ///
-/// The rays that meet a triangle p₀p₁p₂ whose plane misses x are those with (pᵢ × pᵢ₊₁)·y >= 0 for all i (oriented so that
-/// (p₀ × p₁)·p₂ > 0), however near or wide the triangle, so the blocker itself need never be clipped. For y on the facet's plane,
-/// m·y = s, the triangle's plane N·y = D stands before y where (s N − D m)·y > 0: the fourth plane through x.
+/// The rays that meet a triangle p₀p₁p₂ whose plane misses x are those with (pᵢ × pᵢ₊₁)·y >= 0 for
+/// all i (oriented so that (p₀ × p₁)·p₂ > 0), however near or wide the triangle, so the blocker
+/// itself need never be clipped. For y on the facet's plane, m·y = s, the triangle's plane N·y = D
+/// stands before y where (s N − D m)·y > 0: the fourth plane through x.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
     planes: [DVec3; 4],
     count: usize,
     /// A measure of the solid angle, to order blockers by.
     pub size: f64,
-    /// How much rounding grows where this cone's boundary is a crossing with the facet's plane at a small angle (>= 1).
+    /// How much rounding grows where this cone's boundary is a crossing with the facet's plane at a
+    /// small angle (>= 1).
     pub amplification: f64,
 }
 
@@ -35,19 +37,11 @@ impl Cone {
     /// The cone of `blocker`, or `None` where it hides nothing of the facet's part above the horizon.
     pub fn new(blocker: &[DVec3; 3], facet: &Facet, sides: &[DVec3]) -> Option<Self> {
         let [a, b, c] = *blocker;
-        let scale = a
-            .abs()
-            .max(b.abs())
-            .max(c.abs())
-            .max_element()
-            .max(facet.reach);
+        let scale = a.abs().max(b.abs()).max(c.abs()).max_element().max(facet.reach);
         let tolerance = 8.0 * EPSILON * scale;
         let depth = blocker.map(|p| facet.m.dot(p) - facet.s);
         let outside = |plane: DVec3| blocker.iter().all(|p| plane.dot(*p) <= tolerance);
-        if depth.iter().all(|&d| d >= -tolerance)
-            || outside(DVec3::Z)
-            || sides.iter().any(|&plane| outside(plane))
-        {
+        if depth.iter().all(|&d| d >= -tolerance) || outside(DVec3::Z) || sides.iter().any(|&plane| outside(plane)) {
             return None;
         }
         let normal = (b - a).cross(c - a);
@@ -89,20 +83,12 @@ impl Cone {
             }
             covered &= low >= -tolerance;
         }
-        if covered {
-            Relation::Covered
-        } else {
-            Relation::Meeting
-        }
+        if covered { Relation::Covered } else { Relation::Meeting }
     }
 }
 
 /// Unit normals, pointing in, of the planes through x and the edges of a convex polygon.
 pub fn sides(polygon: &[DVec3]) -> Vec<DVec3> {
     let next = polygon.iter().cycle().skip(1);
-    polygon
-        .iter()
-        .zip(next)
-        .filter_map(|(&v, &w)| v.cross(w - v).try_normalize())
-        .collect()
+    polygon.iter().zip(next).filter_map(|(&v, &w)| v.cross(w - v).try_normalize()).collect()
 }

@@ -24,17 +24,13 @@ pub enum Error {
         lights: usize,
     },
     /// The receiver lies on an emitter, where irradiance jumps from one side to the other.
-    #[error(
-        "the receiver lies on target {target}, which emits: move it off the light, to either side"
-    )]
+    #[error("the receiver lies on target {target}, which emits: move it off the light, to either side")]
     OnLight {
         /// Which target.
         target: u32,
     },
     /// What x sees of a target falls into more pieces than are worth computing.
-    #[error(
-        "what the receiver sees of target {target} is cut into more than {limit} pieces by {blockers} blockers"
-    )]
+    #[error("what the receiver sees of target {target} is cut into more than {limit} pieces by {blockers} blockers")]
     TooManyPieces {
         /// Which target.
         target: u32,
@@ -52,16 +48,15 @@ pub enum Error {
         cells: usize,
     },
     /// The mean that came with a variance is not the irradiance.
-    #[error(
-        "the variance's own mean {mean} differs from the irradiance {irradiance} by more than rounding explains"
-    )]
+    #[error("the variance's own mean {mean} differs from the irradiance {irradiance} by more than rounding explains")]
     Inconsistent {
         /// Mean of the estimator by cubature.
         mean: f64,
         /// Irradiance by edge sums.
         irradiance: f64,
     },
-    /// The selection never picks a light that contributes, so the estimator has no finite variance about the irradiance.
+    /// The selection never picks a light that contributes, so the estimator has no finite variance
+    /// about the irradiance.
     #[error("light {light} contributes but is never picked: choose another selection")]
     NeverPicked {
         /// Which light.

@@ -4,15 +4,16 @@ use glam::DVec3;
 
 use crate::error::Error;
 
-/// One emitter target in the receiver's local frame: x at the origin, its normal N_x along +Z, metres, binary64.
+/// One emitter target in the receiver's local frame: x at the origin, its normal N_x along +Z,
+/// metres, binary64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facing {
     /// The target's number in the scene, for messages.
     pub target: u32,
     /// The light it belongs to: an index into the list of [`Light`]s.
     pub light: u32,
-    /// Three corners, or four that run around a parallelogram, counter-clockwise seen from the front. Four that do not lie
-    /// in one plane are taken as the triangles 0, 1, 2 and 0, 2, 3.
+    /// Three corners, or four that run around a parallelogram, counter-clockwise seen from the
+    /// front. Four that do not lie in one plane are taken as the triangles 0, 1, 2 and 0, 2, 3.
     pub corners: Vec<DVec3>,
     /// Whether x is on a side of the target from which light leaves.
     pub faces: bool,
@@ -20,9 +21,10 @@ pub struct Facing {
     pub area: f64,
     /// L_e toward x, linear RGB, W/(m² sr) or lm/(m² sr).
     pub radiance: [f64; 3],
-    /// Triangles that may stand between x and the target, in the same frame. A triangle whose plane holds x, and one that is
-    /// coplanar with the target, block nothing and must have been left out. The others may lie anywhere: behind the target
-    /// or across its plane, below the horizon, outside the pyramid.
+    /// Triangles that may stand between x and the target, in the same frame. A triangle whose plane
+    /// holds x, and one that is coplanar with the target, block nothing and must have been left
+    /// out. The others may lie anywhere: behind the target or across its plane, below the horizon,
+    /// outside the pyramid.
     pub blockers: Vec<[DVec3; 3]>,
 }
 
@@ -43,16 +45,10 @@ impl Facing {
             && self.area.is_finite()
             && self.radiance.iter().all(|l| l.is_finite());
         if !finite {
-            return Err(Error::NotFinite {
-                target: self.target,
-            });
+            return Err(Error::NotFinite { target: self.target });
         }
         if self.light as usize >= lights {
-            return Err(Error::NoSuchLight {
-                target: self.target,
-                light: self.light,
-                lights,
-            });
+            return Err(Error::NoSuchLight { target: self.target, light: self.light, lights });
         }
         Ok(())
     }

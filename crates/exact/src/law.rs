@@ -2,7 +2,8 @@
 
 use crate::value::{EPSILON, Value};
 
-/// What an estimator does on one facet at unit radiance: the probability of landing on its visible part, and the mean and spread of the value there.
+/// What an estimator does on one facet at unit radiance: the probability of landing on its visible
+/// part, and the mean and spread of the value there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Part {
     /// Which facet of the sight.
@@ -26,7 +27,8 @@ pub struct Part {
 pub struct Law {
     /// One for each facet of which x sees something.
     pub parts: Vec<Part>,
-    /// H = 1 − Σ P, computed without that subtraction where it is small: exactly zero when nothing is hidden.
+    /// H = 1 − Σ P, computed without that subtraction where it is small: exactly zero when nothing
+    /// is hidden.
     pub hidden: f64,
     /// Bound of the error of H.
     pub hidden_error: f64,
@@ -48,20 +50,11 @@ pub struct Outcome {
 impl Law {
     /// The law of total variance, with x_i = L_i u_i:
     ///
-    /// V = Σ [ (x_i − E)² P_i + L_i² S_i ] + H E², E = Σ x_i P_i.
+    /// V = Σ [ (x_i − E)² P_i + L_i² S_i ] + H E².
     ///
-    /// No term is negative, so that V keeps its digits however small against E². E is summed as x_0 + Σ (x_i − x_0) P_i − H x_0 (the same,
-    /// as Σ P + H = 1), so that equal x_i and H = 0 give V = 0 and not rounding.
+    /// No term is negative, so that V keeps its digits however small against E².
     pub fn outcome(&self, radiance: impl Fn(usize) -> f64) -> Outcome {
-        let value = |part: &Part| radiance(part.seen) * part.mean;
-        let Some(reference) = self.parts.first().map(value) else {
-            return Outcome::default();
-        };
-        let deviations = self
-            .parts
-            .iter()
-            .map(|part| (value(part) - reference) * part.mass);
-        let mean = reference + deviations.sum::<f64>() - self.hidden * reference;
+        let mean = self.mean(&radiance);
         let mut outcome = Outcome {
             mean,
             variance: mean * mean * self.hidden,
@@ -71,10 +64,19 @@ impl Law {
         for part in &self.parts {
             outcome.add(part, radiance(part.seen));
         }
-        outcome.error +=
-            16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
+        outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
         outcome.mean_error += 16.0 * EPSILON * mean.abs();
         outcome
+    }
+
+    /// E = Σ x_i P_i. Where nothing is hidden, Σ P_i = 1 and the sum is taken about the likeliest
+    /// x_i, so that equal x_i give
+    /// V = 0 and not rounding.
+    fn mean(&self, radiance: &impl Fn(usize) -> f64) -> f64 {
+        let value = |part: &Part| radiance(part.seen) * part.mean;
+        let likeliest = self.parts.iter().max_by(|a, b| a.mass.total_cmp(&b.mass));
+        let about = likeliest.filter(|_| self.hidden == 0.0).map_or(0.0, value);
+        about + self.parts.iter().map(|part| (value(part) - about) * part.mass).sum::<f64>()
     }
 
     /// The variance of one sample in every channel and in luminance.

@@ -1,11 +1,14 @@
-//! Direct light without chance: irradiance with occlusion, and the variance of the estimators, for triangles lit by triangles.
+//! Direct light without chance: irradiance with occlusion, and the variance of the estimators, for
+//! triangles lit by triangles.
 //!
-//! Input is what one receiver x meets, in its own frame ([`Facing`], [`Light`]); [`Sight`] takes the blockers away from each
-//! emitter, leaving convex polygons ([`visible`]), and sums their [`moments`] over edges. The irradiance and the second moments of the basic estimators are such
-//! sums; where they cancel, and for the weighted strategies, [`cubature`] over the same polygons takes their place. Every
-//! value comes with an absolute error bound, or not at all.
+//! Input is what one receiver x meets, in its own frame ([`Facing`], [`Light`]); [`Sight`] takes
+//! the blockers away from each emitter, leaving convex polygons ([`visible`]), and sums their
+//! [`moments`] over edges. The irradiance and the second moments of the basic estimators are such
+//! sums; where they cancel, and for the weighted strategies, [`cubature`] over the same polygons
+//! takes their place. Every value comes with an absolute error bound, or not at all.
 //!
-//! In words of the rendering equation: E = ∫ L_e cosθ_x V dω, f_r = 1. For a diffuse surface multiply E by ρ/π and variances by (ρ/π)².
+//! In words of the rendering equation: E = ∫ L_e cosθ_x V dω, f_r = 1. For a diffuse surface
+//! multiply E by ρ/π and variances by (ρ/π)².
 
 #![allow(clippy::doc_markdown, reason = "formulas stand in plain text: L_e, M_10, cosθ_x")]
 
@@ -20,6 +23,7 @@ pub mod gauss;
 pub mod law;
 pub mod mis;
 pub mod moments;
+pub mod outline;
 pub mod picked;
 pub mod seen;
 pub mod sight;

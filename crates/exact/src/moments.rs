@@ -1,12 +1,14 @@
 //! Moments of what x sees of a facet, by sums over edges.
 //!
-//! M_ij = ∫ aⁱ bʲ dω over a spherical polygon, a = N_x·Ψ = cosθ_x and b = m·Ψ = cosθ_y. The divergence theorem on the sphere turns them into
-//! edge sums, with c = N_x·m, k = i + j >= 1, G the arcs' inward normals, and k(k+1) the eigenvalue of the spherical Laplacian:
+//! M_ij = ∫ aⁱ bʲ dω over a spherical polygon, a = N_x·Ψ = cosθ_x and b = m·Ψ = cosθ_y. The
+//! divergence theorem on the sphere turns them into edge sums, with c = N_x·m, k = i + j >= 1, G
+//! the arcs' inward normals, and k(k+1) the eigenvalue of the spherical Laplacian:
 //!
 //! k(k+1) M_ij = i(i−1) M_{i−2,j} + 2ij c M_{i−1,j−1} + j(j−1) M_{i,j−2} + B_ij,
 //! B_ij = Σ_arcs ∫ (i (G·N_x) aⁱ⁻¹ bʲ + j (G·m) aⁱ bʲ⁻¹) dt, M_00 the solid angle.
 //!
-//! M_10 is Lambert's formula (1760; Baum, Rushmeier and Winget 1989); the rest equals the double-axis moments of Arvo 1995.
+//! M_10 is Lambert's formula (1760; Baum, Rushmeier and Winget 1989); the rest equals the
+//! double-axis moments of Arvo 1995.
 
 use glam::DVec3;
 
@@ -31,9 +33,14 @@ pub struct Moments {
     pub m20: f64,
     /// M_23 = ∫ cos²θ_x cos³θ_y dω.
     pub m23: f64,
-    /// Bound of the absolute error of each M_ij (all |aⁱ bʲ| <= 1): what the vertices' rounding moves across the edges,
-    /// and the rounding of the sums themselves.
+    /// Bound of the absolute error of each edge sum (all |aⁱ bʲ| <= 1): what the vertices' rounding
+    /// moves across the edges, and the rounding of the sums themselves.
     pub error: f64,
+    /// Bounds of the errors of M_00, M_10 and M_20: `error`, or smaller where cubature took the
+    /// sums' place.
+    pub errors: [f64; 3],
+    /// How far rounding may move an outline, in metres.
+    pub shift: f64,
     /// Bound of the area's error in m².
     pub area_error: f64,
 }
@@ -104,35 +111,33 @@ impl Sums {
         let m21 = (2.0 * m01 + 4.0 * c * m10 + self.b21) / 12.0;
         let m23 = (2.0 * m03 + 12.0 * c * m12 + 6.0 * m21 + self.b23) / 30.0;
         let rounding = 16.0 * EPSILON * amplification;
+        let (error, shift) = (rounding * self.weighted_length, rounding * facet.reach);
         Moments {
             area,
             solid_angle,
             m10,
             m20,
             m23,
-            error: rounding * self.weighted_length,
-            area_error: rounding * facet.reach * self.perimeter,
+            error,
+            errors: [error; 3],
+            shift,
+            area_error: shift * self.perimeter,
         }
     }
 }
 
-/// Solid angle of a convex polygon: triangles from its first vertex, tan(Ω/2) = u·(v×w)/(1 + u·v + v·w + w·u) each (Van Oosterom and
-/// Strackee 1983). All terms are positive, so that a distant polygon keeps its digits.
+/// Solid angle of a convex polygon: triangles from its first vertex, tan(Ω/2) = u·(v×w)/(1 + u·v +
+/// v·w + w·u) each (Van Oosterom and Strackee 1983). All terms are positive, so that a distant
+/// polygon keeps its digits.
 pub fn solid_angle_of(polygon: &[DVec3]) -> f64 {
     let origin = polygon[0];
     let r = origin.length();
-    polygon[1..]
-        .windows(2)
-        .map(|edge| triangle_solid_angle(origin, r, edge[0], edge[1]))
-        .sum()
+    polygon[1..].windows(2).map(|edge| triangle_solid_angle(origin, r, edge[0], edge[1])).sum()
 }
 
 fn triangle_solid_angle(a: DVec3, a_length: f64, b: DVec3, c: DVec3) -> f64 {
     let (b_length, c_length) = (b.length(), c.length());
     let volume = a.dot((b - a).cross(c - a));
-    let rest = a_length * b_length * c_length
-        + a.dot(b) * c_length
-        + b.dot(c) * a_length
-        + c.dot(a) * b_length;
+    let rest = a_length * b_length * c_length + a.dot(b) * c_length + b.dot(c) * a_length + c.dot(a) * b_length;
     2.0 * volume.atan2(rest)
 }

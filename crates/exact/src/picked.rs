@@ -19,7 +19,8 @@ pub enum Method {
     Cubature,
 }
 
-/// Lights that are drawn on as one: the probability of picking them and their whole measure, hidden parts included.
+/// Lights that are drawn on as one: the probability of picking them and their whole measure, hidden
+/// parts included.
 struct Group {
     pick: f64,
     whole: f64,
@@ -27,28 +28,19 @@ struct Group {
     unlisted: f64,
 }
 
-/// The law of one sample: light ℓ with probability q_ℓ, then a point uniform in the draw's measure, T_ℓ in all:
-/// P = q_ℓ (visible)/T_ℓ and w = L u T_ℓ/q_ℓ with u = cosθ_x cosθ_y/r², cosθ_x or 1.
+/// The law of one sample: light ℓ with probability q_ℓ, then a point uniform in the draw's measure,
+/// T_ℓ in all: P = q_ℓ (visible)/T_ℓ and w = L u T_ℓ/q_ℓ with u = cosθ_x cosθ_y/r², cosθ_x or 1.
 ///
 /// # Errors
 /// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0.
 pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
     let groups = groups(sight, draw, selection);
     let group_of = |light: usize| {
-        if selection == Selection::Together {
-            0
-        } else {
-            light
-        }
+        if selection == Selection::Together { 0 } else { light }
     };
     let mut law = Law::default();
     for group in &groups {
-        law.hidden += group.pick
-            * if group.whole > 0.0 {
-                group.unlisted / group.whole
-            } else {
-                1.0
-            };
+        law.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
     for (index, seen) in sight.seen.iter().enumerate() {
         let group = &groups[group_of(seen.light)];
@@ -62,9 +54,8 @@ pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> R
         let (hidden, error) = hidden(seen, draw);
         law.hidden += share * hidden;
         law.hidden_error += share * error;
-        if !seen.pieces.is_empty() {
-            law.parts
-                .push(scaled(part(index, seen, draw, method)?, share));
+        if seen.is_visible() {
+            law.parts.push(scaled(part(index, seen, draw, method)?, share));
         }
     }
     law.hidden_error += 4.0 * EPSILON * law.hidden;
@@ -122,11 +113,8 @@ fn hidden(seen: &Seen, draw: Draw) -> (f64, f64) {
     match draw {
         _ if !partial => (0.0, 0.0),
         Draw::Uniform => (seen.area - seen.visible_area, moments.area_error),
-        Draw::SolidAngle => (
-            seen.whole_solid_angle - moments.solid_angle,
-            open.error + moments.error,
-        ),
-        Draw::ProjectedSolidAngle => (open.m10 - moments.m10, open.error + moments.error),
+        Draw::SolidAngle => (seen.whole_solid_angle - moments.solid_angle, open.error + moments.error),
+        Draw::ProjectedSolidAngle => (open.m10 - moments.m10, open.errors[1] + moments.errors[1]),
     }
 }
 
@@ -138,26 +126,15 @@ fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Vec<Group> {
     let weights: Vec<f64> = match selection {
         Selection::Together | Selection::Uniform => vec![1.0; lights],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
-        Selection::Contribution => (0..lights)
-            .map(|light| contribution(sight, light))
-            .collect(),
+        Selection::Contribution => (0..lights).map(|light| contribution(sight, light)).collect(),
     };
     let total: f64 = weights.iter().sum();
     let pick = |weight: f64| if total > 0.0 { weight / total } else { 0.0 };
-    weights
-        .iter()
-        .enumerate()
-        .map(|(light, &weight)| group(sight, draw, pick(weight), Some(light)))
-        .collect()
+    weights.iter().enumerate().map(|(light, &weight)| group(sight, draw, pick(weight), Some(light))).collect()
 }
 
 fn group(sight: &Sight, draw: Draw, pick: f64, only: Option<usize>) -> Group {
-    let members = || {
-        sight
-            .seen
-            .iter()
-            .filter(|seen| only.is_none_or(|light| seen.light == light))
-    };
+    let members = || sight.seen.iter().filter(|seen| only.is_none_or(|light| seen.light == light));
     let listed: f64 = members().map(|seen| whole(seen, draw)).sum();
     let whole = match (draw, only) {
         (Draw::Uniform, None) => sight.total_area(),
@@ -166,19 +143,10 @@ fn group(sight: &Sight, draw: Draw, pick: f64, only: Option<usize>) -> Group {
     };
     let rest = whole - listed;
     let rounding = 4.0 * EPSILON * (members().count() + sight.lights.len()) as f64 * whole;
-    Group {
-        pick,
-        whole,
-        unlisted: if rest.abs() <= rounding { 0.0 } else { rest },
-    }
+    Group { pick, whole, unlisted: if rest.abs() <= rounding { 0.0 } else { rest } }
 }
 
 /// Luminance of a light's unoccluded irradiance.
 fn contribution(sight: &Sight, light: usize) -> f64 {
-    sight
-        .seen
-        .iter()
-        .filter(|seen| seen.light == light)
-        .map(|seen| seen.luminance * seen.open.m10)
-        .sum()
+    sight.seen.iter().filter(|seen| seen.light == light).map(|seen| seen.luminance * seen.open.m10).sum()
 }

@@ -16,10 +16,12 @@ pub struct Sight {
 }
 
 impl Sight {
-    /// Computes the visible part and the moments of every target. Targets that do not face x need not be listed.
+    /// Computes the visible part and the moments of every target. Targets that do not face x need
+    /// not be listed.
     ///
     /// # Errors
-    /// Numbers that are not finite, a receiver on a light, or more pieces than can be computed; see [`Error`].
+    /// Numbers that are not finite, a receiver on a light, or more pieces than can be computed; see
+    /// [`Error`].
     pub fn new(facing: &[Facing], lights: &[Light]) -> Result<Self, Error> {
         let mut seen = Vec::with_capacity(facing.len());
         for target in facing {
@@ -28,10 +30,7 @@ impl Sight {
                 seen.append(&mut Seen::facets(target)?);
             }
         }
-        Ok(Self {
-            seen,
-            lights: lights.to_vec(),
-        })
+        Ok(Self { seen, lights: lights.to_vec() })
     }
 
     /// Area of all lights in m², each triangle once.
@@ -57,13 +56,9 @@ impl Sight {
             for (channel, radiance) in rgb.iter_mut().zip(seen.radiance) {
                 *channel += radiance * moments(seen).m10;
             }
-            error_bound += seen.luminance * moments(seen).error;
+            error_bound += seen.luminance * moments(seen).errors[1];
         }
         let luminance = luminance(rgb);
-        Value {
-            rgb,
-            luminance,
-            error_bound: error_bound + EPSILON * (self.seen.len() + 4) as f64 * luminance,
-        }
+        Value { rgb, luminance, error_bound: error_bound + EPSILON * (self.seen.len() + 4) as f64 * luminance }
     }
 }

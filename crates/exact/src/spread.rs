@@ -1,81 +1,71 @@
 //! Mass, mean and spread of a function over the visible part of a facet.
 
-use std::cell::Cell;
+use std::array::from_fn;
 
 use glam::DVec3;
 
 use crate::cubature::{guess, integrate};
 use crate::error::Error;
 use crate::law::Part;
+use crate::outline::line_integral;
 use crate::seen::Seen;
 use crate::value::EPSILON;
 
-/// ∫ w dA, the mean of u under w dA, and ∫ (u − mean)² w dA over the visible part, where `f` gives \[u, w\] at a point y of the light. Centred, so
-/// that a nearly constant u keeps the digits of its spread.
+/// ∫ w dA, the mean of u under w dA, and ∫ (u − mean)² w dA over the visible part, where `f` gives
+/// \[u, w\] at a point y of the light. Centred, so that a nearly constant u keeps the digits of its
+/// spread.
 ///
 /// # Errors
 /// [`Error::NotConverged`].
-pub fn by_cubature(
-    index: usize,
-    seen: &Seen,
-    f: impl Fn(DVec3) -> [f64; 2],
-) -> Result<Part, Error> {
+pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
     });
     let centre = if mass > 0.0 { first / mass } else { 0.0 };
-    let farthest = Cell::new(0.0_f64);
     let about_centre = |y: DVec3| {
         let [u, w] = f(y);
         let d = u - centre;
-        farthest.set(farthest.get().max(d.abs()));
         [w, d * w, d * d * w]
     };
+    let slack = seen.slack();
+    // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
+    let relative = |least: f64| least.max(0.1 * slack);
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
-        let scale = centre * mass.sqrt();
+        let size = centre.abs() * mass;
         [
-            1e-11 * mass,
-            1e-9 * (second * mass).sqrt() + 1e-15 * centre.abs() * mass,
-            1e-9 * second + 1e-18 * scale * scale,
+            relative(1e-11) * mass,
+            relative(1e-9) * (second * mass).sqrt() + 1e-15 * size,
+            relative(1e-9) * second + 1e-18 * centre.abs() * size,
         ]
     };
     let sum = integrate(&seen.pieces, about_centre, tolerance)?;
     let [mass, first, second] = sum.value;
     let shift = if mass > 0.0 { first / mass } else { 0.0 };
-    let (slack, reach) = (seen.slack(), farthest.get());
-    let mass_error = sum.error[0] + slack * mass;
+    let spread = second - shift * first;
+    // The vertices' rounding moves the outline, and scales u and w by some (1 + slack).
+    let edges = line_integral(&seen.pieces, about_centre);
+    let outline: [f64; 3] = from_fn(|k| sum.error[k] + edges[k] * seen.moments.shift);
+    let size = (second * (second + centre * centre * mass)).sqrt();
     Ok(Part {
         seen: index,
         mass,
         mean: centre + shift,
-        spread: second - shift * first,
-        mass_error,
-        mean_error: (sum.error[1] / mass) + slack * reach + 8.0 * EPSILON * centre.abs(),
-        spread_error: sum.error[2]
-            + 2.0 * shift.abs() * sum.error[1]
-            + reach * reach * mass_error
-            + 16.0 * EPSILON * centre.abs() * (second * mass).sqrt(),
+        spread,
+        mass_error: outline[0] + slack * mass,
+        mean_error: outline[1] / mass + slack * (size / mass).sqrt() + slack * centre.abs(),
+        spread_error: outline[2] + 2.0 * shift.abs() * outline[1] + 4.0 * slack * (size + second),
     })
 }
 
 /// u = g = cosθ_x cosθ_y/r² under dA, by edge sums: ∫ g dA = M_10 and ∫ g² dA = M_23/s².
 pub fn of_area(index: usize, seen: &Seen) -> Part {
     let (moments, s2) = (&seen.moments, seen.facet.s * seen.facet.s);
-    let mass_error = if seen.blocked || seen.clipped {
-        moments.area_error
-    } else {
-        0.0
-    };
+    let mass_error = if seen.blocked || seen.clipped { moments.area_error } else { 0.0 };
     let relative_plane = 16.0 * EPSILON * seen.facet.reach / seen.facet.s;
     let second = moments.m23 / s2;
     let second_error = moments.error / s2 + relative_plane * second.abs();
-    closed(
-        index,
-        (seen.visible_area, mass_error),
-        (moments.m10, moments.error),
-        (second, second_error),
-    )
+    closed(index, (seen.visible_area, mass_error), (moments.m10, moments.errors[1]), (second, second_error))
 }
 
 /// u = cosθ_x under dω: M_00, M_10 and M_20.
@@ -83,22 +73,16 @@ pub fn of_solid_angle(index: usize, seen: &Seen) -> Part {
     let moments = &seen.moments;
     closed(
         index,
-        (moments.solid_angle, moments.error),
-        (moments.m10, moments.error),
-        (moments.m20, moments.error),
+        (moments.solid_angle, moments.errors[0]),
+        (moments.m10, moments.errors[1]),
+        (moments.m20, moments.errors[2]),
     )
 }
 
 /// u = 1 under cosθ_x dω.
 pub fn of_projected_solid_angle(index: usize, seen: &Seen) -> Part {
     let moments = &seen.moments;
-    Part {
-        seen: index,
-        mass: moments.m10,
-        mass_error: moments.error,
-        mean: 1.0,
-        ..Part::default()
-    }
+    Part { seen: index, mass: moments.m10, mass_error: moments.error, mean: 1.0, ..Part::default() }
 }
 
 /// From ∫ w, ∫ u w and ∫ u² w, each with its error.

@@ -150,13 +150,8 @@ impl FromStr for Strategy {
             "mis/power" => Ok(Self::Mis(Weighting::Power)),
             "mis/optimal" => Ok(Self::Mis(Weighting::Optimal)),
             _ => {
-                let share = name
-                    .strip_prefix("mixture/")
-                    .and_then(|a| a.parse::<f64>().ok());
-                share
-                    .filter(|a| (0.0..=1.0).contains(a))
-                    .map(Self::Mixture)
-                    .ok_or_else(unknown)
+                let share = name.strip_prefix("mixture/").and_then(|a| a.parse::<f64>().ok());
+                share.filter(|a| (0.0..=1.0).contains(a)).map(Self::Mixture).ok_or_else(unknown)
             }
         }
     }
@@ -185,10 +180,7 @@ mod tests {
             "mixture/-0.1",
             "mis/power@power",
         ] {
-            assert_eq!(
-                name.parse::<Strategy>(),
-                Err(UnknownStrategy(name.to_owned()))
-            );
+            assert_eq!(name.parse::<Strategy>(), Err(UnknownStrategy(name.to_owned())));
         }
     }
 }

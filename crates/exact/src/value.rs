@@ -11,7 +11,8 @@ pub(crate) const EPSILON: f64 = f64::EPSILON;
 pub struct Value {
     /// Linear RGB; a variance is that of each channel.
     pub rgb: [f64; 3],
-    /// Luminance; a variance is that of the samples' luminance, not the luminance of the channels' variances.
+    /// Luminance; a variance is that of the samples' luminance, not the luminance of the channels'
+    /// variances.
     pub luminance: f64,
     /// Absolute bound of the luminance's error.
     pub error_bound: f64,
@@ -19,8 +20,5 @@ pub struct Value {
 
 /// 0.2126 R + 0.7152 G + 0.0722 B.
 pub fn luminance(rgb: [f64; 3]) -> f64 {
-    rgb.iter()
-        .zip(LUMINANCE)
-        .map(|(c, weight)| c * weight)
-        .sum()
+    rgb.iter().zip(LUMINANCE).map(|(c, weight)| c * weight).sum()
 }

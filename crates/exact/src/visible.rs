@@ -34,9 +34,7 @@ impl Pieces {
     /// The polygons, each with its vertices around m.
     pub fn iter(&self) -> impl Iterator<Item = &[DVec3]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts
-            .zip(&self.ends)
-            .map(|(start, &end)| &self.vertices[start..end])
+        starts.zip(&self.ends).map(|(start, &end)| &self.vertices[start..end])
     }
 
     /// How many polygons.
@@ -69,21 +67,15 @@ pub fn above_horizon(facet: &Facet) -> (Vec<DVec3>, bool) {
     (halves.front, clipped)
 }
 
-/// Takes the cones of all blockers from `open`, the facet's part above the horizon. `None` beyond [`LIMIT`] cuts.
+/// Takes the cones of all blockers from `open`, the facet's part above the horizon. `None` beyond
+/// [`LIMIT`] cuts.
 pub fn subtract(facet: &Facet, open: &[DVec3], blockers: &[[DVec3; 3]]) -> Option<Visible> {
-    let unblocked = || Visible {
-        pieces: Pieces::one(open),
-        blocked: false,
-        amplification: 1.0,
-    };
+    let unblocked = || Visible { pieces: Pieces::one(open), blocked: false, amplification: 1.0 };
     if open.is_empty() || blockers.is_empty() {
         return Some(unblocked());
     }
     let sides = sides(open);
-    let mut cones: Vec<Cone> = blockers
-        .iter()
-        .filter_map(|b| Cone::new(b, facet, &sides))
-        .collect();
+    let mut cones: Vec<Cone> = blockers.iter().filter_map(|b| Cone::new(b, facet, &sides)).collect();
     if cones.is_empty() {
         return Some(unblocked());
     }
@@ -93,15 +85,17 @@ pub fn subtract(facet: &Facet, open: &[DVec3], blockers: &[[DVec3; 3]]) -> Optio
     subtraction.run()
 }
 
-/// A polygon still to be looked at, and the blockers that met the polygon it was cut from: ranges of the two stacks.
+/// A polygon still to be looked at, and the blockers that met the polygon it was cut from: ranges
+/// of the two stacks.
 #[derive(Clone, Copy)]
 struct Job {
     vertices: (usize, usize),
     cones: (usize, usize),
 }
 
-/// The difference of convex polygons and convex cones, depth first, so that each part is tested only against the blockers
-/// that met its parent. Expected to grow as n log n for n scattered blockers, as binary space partitions do.
+/// The difference of convex polygons and convex cones, depth first, so that each part is tested
+/// only against the blockers that met its parent. Expected to grow as n log n for n scattered
+/// blockers, as binary space partitions do.
 struct Subtraction<'a> {
     all: &'a [Cone],
     tolerance: f64,
@@ -115,11 +109,7 @@ struct Subtraction<'a> {
 
 impl<'a> Subtraction<'a> {
     fn new(all: &'a [Cone], tolerance: f64) -> Self {
-        let visible = Visible {
-            pieces: Pieces::default(),
-            blocked: false,
-            amplification: 1.0,
-        };
+        let visible = Visible { pieces: Pieces::default(), blocked: false, amplification: 1.0 };
         Self {
             all,
             tolerance,
@@ -135,10 +125,7 @@ impl<'a> Subtraction<'a> {
     fn begin(&mut self, open: &[DVec3]) {
         self.vertices.extend_from_slice(open);
         self.cones.extend(0..self.all.len());
-        self.jobs.push(Job {
-            vertices: (0, open.len()),
-            cones: (0, self.all.len()),
-        });
+        self.jobs.push(Job { vertices: (0, open.len()), cones: (0, self.all.len()) });
     }
 
     fn run(mut self) -> Option<Visible> {
@@ -168,9 +155,7 @@ impl<'a> Subtraction<'a> {
                 return;
             }
         }
-        self.visible
-            .pieces
-            .push(&self.vertices[job.vertices.0..job.vertices.1]);
+        self.visible.pieces.push(&self.vertices[job.vertices.0..job.vertices.1]);
     }
 
     /// The blockers that meet the polygon, pushed as a new list; `None` when one covers it.
@@ -188,22 +173,19 @@ impl<'a> Subtraction<'a> {
         Some((begin, self.cones.len()))
     }
 
-    /// Pushes the parts outside the cone as jobs. When nothing is inside, takes them back and returns false.
+    /// Pushes the parts outside the cone as jobs. When nothing is inside, takes them back and
+    /// returns false.
     fn cut(&mut self, polygon: (usize, usize), cone: usize, rest: (usize, usize)) -> bool {
         let (vertices, jobs) = (self.vertices.len(), self.jobs.len());
         let all = self.all;
         self.inside.clear();
-        self.inside
-            .extend_from_slice(&self.vertices[polygon.0..polygon.1]);
+        self.inside.extend_from_slice(&self.vertices[polygon.0..polygon.1]);
         for &plane in all[cone].planes() {
             self.halves.cut(&self.inside, plane, self.tolerance);
             if self.halves.back.len() > 2 {
                 let begin = self.vertices.len();
                 self.vertices.extend_from_slice(&self.halves.back);
-                self.jobs.push(Job {
-                    vertices: (begin, self.vertices.len()),
-                    cones: rest,
-                });
+                self.jobs.push(Job { vertices: (begin, self.vertices.len()), cones: rest });
             }
             std::mem::swap(&mut self.inside, &mut self.halves.front);
             if self.inside.len() < 3 {

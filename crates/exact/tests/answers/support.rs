@@ -1,5 +1,4 @@
 //! Scenes for the tests, and their conversion to what one receiver meets.
-#![allow(dead_code)]
 
 use glam::DVec3;
 use twoforms_exact::{Error, Facing, Light, Sight};
@@ -22,34 +21,18 @@ pub struct Scene {
 }
 
 pub fn lamp(triangles: Vec<Triangle>, radiance: f64) -> Lamp {
-    Lamp {
-        triangles,
-        radiance: [radiance; 3],
-        two_sided: false,
-    }
+    Lamp { triangles, radiance: [radiance; 3], two_sided: false }
 }
 
 /// A parallelogram from its corner and two edges, as two triangles with the front along u × v.
 pub fn parallelogram(corner: DVec3, u: DVec3, v: DVec3) -> Vec<Triangle> {
-    vec![
-        [corner, corner + u, corner + u + v],
-        [corner, corner + u + v, corner + v],
-    ]
+    vec![[corner, corner + u, corner + u + v], [corner, corner + u + v, corner + v]]
 }
 
 /// A horizontal rectangle about `centre` that shines downward.
 pub fn ceiling(centre: DVec3, width: f64, depth: f64) -> Vec<Triangle> {
     let (u, v) = (DVec3::Y * depth, DVec3::X * width);
     parallelogram(centre - 0.5 * (u + v), u, v)
-}
-
-/// A regular polygon about `centre`, horizontal, that shines downward.
-pub fn disk(centre: DVec3, radius: f64, n: usize) -> Vec<Triangle> {
-    let rim = |k: usize| {
-        let angle = std::f64::consts::TAU * k as f64 / n as f64;
-        centre + radius * DVec3::new(angle.cos(), angle.sin(), 0.0)
-    };
-    (0..n).map(|k| [centre, rim(k + 1), rim(k)]).collect()
 }
 
 /// Seeded random numbers (split mix of 64 bits; Steele, Lea and Flood 2014).
@@ -73,31 +56,21 @@ impl Random {
     }
 
     pub fn point(&mut self, half: f64) -> DVec3 {
-        DVec3::new(
-            self.between(-half, half),
-            self.between(-half, half),
-            self.between(-half, half),
-        )
+        DVec3::new(self.between(-half, half), self.between(-half, half), self.between(-half, half))
     }
 }
 
 impl Scene {
     pub fn of(lamps: Vec<Lamp>) -> Self {
-        Self {
-            lamps,
-            blockers: Vec::new(),
-        }
+        Self { lamps, blockers: Vec::new() }
     }
 
-    /// What x meets: every other triangle may stand between, except those whose plane holds x and those in the light's plane.
+    /// What x meets: every other triangle may stand between, except those whose plane holds x and
+    /// those in the light's plane.
     pub fn facing(&self, x: DVec3, normal: DVec3, merge: bool) -> (Vec<Facing>, Vec<Light>) {
         let frame = Frame::new(x, normal);
-        let all: Vec<Triangle> = self
-            .lamps
-            .iter()
-            .flat_map(|l| l.triangles.clone())
-            .chain(self.blockers.clone())
-            .collect();
+        let all: Vec<Triangle> =
+            self.lamps.iter().flat_map(|l| l.triangles.clone()).chain(self.blockers.clone()).collect();
         let mut facing = Vec::new();
         for (light, lamp) in self.lamps.iter().enumerate() {
             for outline in outlines(&lamp.triangles, merge) {
@@ -109,11 +82,7 @@ impl Scene {
                     light: light as u32,
                     corners: outline.iter().map(|&v| frame.local(v)).collect(),
                     faces: lamp.two_sided || side > 0.0,
-                    area: outline
-                        .windows(2)
-                        .skip(1)
-                        .map(|e| area(&[outline[0], e[0], e[1]]))
-                        .sum(),
+                    area: outline.windows(2).skip(1).map(|e| area(&[outline[0], e[0], e[1]])).sum(),
                     radiance: lamp.radiance,
                     blockers: blockers.map(|t| t.map(|v| frame.local(v))).collect(),
                 });
@@ -136,10 +105,7 @@ impl Lamp {
     fn light(&self) -> Light {
         let area = self.triangles.iter().map(area).sum();
         let sides = if self.two_sided { 2.0 } else { 1.0 };
-        Light {
-            area,
-            power: area * sides * twoforms_exact::value::luminance(self.radiance),
-        }
+        Light { area, power: area * sides * twoforms_exact::value::luminance(self.radiance) }
     }
 }
 
@@ -149,11 +115,7 @@ fn outlines(triangles: &[Triangle], merge: bool) -> Vec<Vec<DVec3>> {
     let mut rest = triangles;
     while let Some((first, others)) = rest.split_first() {
         rest = others;
-        if let Some(quad) = others
-            .first()
-            .filter(|_| merge)
-            .and_then(|second| quad(first, second))
-        {
+        if let Some(quad) = others.first().filter(|_| merge).and_then(|second| quad(first, second)) {
             outlines.push(quad);
             rest = &others[1..];
         } else {
@@ -168,11 +130,7 @@ fn quad(one: &Triangle, two: &Triangle) -> Option<Vec<DVec3>> {
         let (a, b, c) = (one[i], one[(i + 1) % 3], one[(i + 2) % 3]);
         for j in 0..3 {
             let (d, e, f) = (two[j], two[(j + 1) % 3], two[(j + 2) % 3]);
-            if a == d
-                && c == e
-                && (a - b + c - f).length() <= 1e-6 * (c - a).length()
-                && coplanar(two, one)
-            {
+            if a == d && c == e && (a - b + c - f).length() <= 1e-6 * (c - a).length() && coplanar(two, one) {
                 return Some(vec![a, b, c, f]);
             }
         }
@@ -219,10 +177,7 @@ impl Frame {
         let n = normal.normalize();
         let other = if n.x.abs() < 0.5 { DVec3::X } else { DVec3::Y };
         let t = other.cross(n).normalize();
-        Self {
-            x,
-            axes: [t, n.cross(t), n],
-        }
+        Self { x, axes: [t, n.cross(t), n] }
     }
 
     pub fn local(&self, v: DVec3) -> DVec3 {

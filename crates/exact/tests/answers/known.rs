@@ -1,70 +1,26 @@
 //! Scenes whose irradiance and variances were computed by other methods.
 
-mod support;
-
-use glam::DVec3;
 use serde_json::Value as Json;
-use support::{Lamp, Scene, Triangle};
 use twoforms_exact::{Sight, Strategy};
 
-fn numbers(json: &Json) -> Vec<f64> {
-    json.as_array()
-        .unwrap()
-        .iter()
-        .map(|v| v.as_f64().unwrap())
-        .collect()
-}
+use crate::file::{self, numbers};
 
-fn triangles(json: &Json) -> Vec<Triangle> {
-    let triangle = |t: &Json| {
-        let n = numbers(t);
-        [0, 3, 6].map(|k| DVec3::from_slice(&n[k..k + 3]))
-    };
-    json.as_array().unwrap().iter().map(triangle).collect()
-}
-
-fn scene(json: &Json) -> Scene {
-    let lamp = |l: &Json| Lamp {
-        triangles: triangles(&l["triangles"]),
-        radiance: [l["radiance"].as_f64().unwrap(); 3],
-        two_sided: l["sides"] == 2,
-    };
-    Scene {
-        lamps: json["lights"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(lamp)
-            .collect(),
-        blockers: triangles(&json["blockers"]),
-    }
-}
-
-/// Irradiance and second moments to a relative 1e-9; V to 1e-6 of V + 1e-13 of its second moment, or 1e-9 of V; bounds hold.
+/// Irradiance and second moments to a relative 1e-9; V to 1e-6 of V + 1e-13 of its second moment,
+/// or 1e-9 of V; bounds hold.
 fn compare(json: &Json, sight: &Sight, wrong: &mut Vec<String>, worst: &mut f64) {
     let name = json["name"].as_str().unwrap();
     let precision = numbers(&json["precision"]);
     let e = sight.irradiance();
     let known = json["irradiance"].as_f64().unwrap();
-    let scale = if known > 0.0 {
-        known
-    } else {
-        json["unoccluded"].as_f64().unwrap().max(1e-3)
-    };
+    let scale = if known > 0.0 { known } else { json["unoccluded"].as_f64().unwrap().max(1e-3) };
     let error = (e.luminance - known).abs();
     *worst = worst.max(error / scale);
     if error > 1e-12 * scale || error > e.error_bound + 10.0 * precision[0] * scale {
-        wrong.push(format!(
-            "{name}: irradiance {} known {known} bound {}",
-            e.luminance, e.error_bound
-        ));
+        wrong.push(format!("{name}: irradiance {} known {known} bound {}", e.luminance, e.error_bound));
     }
     let open = json["unoccluded"].as_f64().unwrap();
     if (sight.irradiance_unoccluded().luminance - open).abs() > 1e-12 * open {
-        wrong.push(format!(
-            "{name}: unoccluded {:?} known {open}",
-            sight.irradiance_unoccluded()
-        ));
+        wrong.push(format!("{name}: unoccluded {:?} known {open}", sight.irradiance_unoccluded()));
     }
     for (strategy, known_variance) in json["variance"].as_object().unwrap() {
         let strategy: Strategy = strategy.parse().unwrap();
@@ -94,19 +50,12 @@ fn compare(json: &Json, sight: &Sight, wrong: &mut Vec<String>, worst: &mut f64)
 
 #[test]
 fn irradiance_and_variance_agree_with_other_methods() {
-    let json: Json = serde_json::from_str(include_str!("data/known.json")).unwrap();
     let (mut wrong, mut worst) = (Vec::new(), 0.0);
-    for case in json["scenes"].as_array().unwrap() {
-        let x = DVec3::from_slice(&numbers(&case["x"]));
-        let n = DVec3::from_slice(&numbers(&case["n"]));
+    for case in file::cases(include_str!("../data/known.json")) {
+        let (x, n) = file::receiver(&case);
         for merge in [false, true] {
-            let (facing, lights) = scene(case).facing(x, n, merge);
-            compare(
-                case,
-                &Sight::new(&facing, &lights).unwrap(),
-                &mut wrong,
-                &mut worst,
-            );
+            let (facing, lights) = file::scene(&case).facing(x, n, merge);
+            compare(&case, &Sight::new(&facing, &lights).unwrap(), &mut wrong, &mut worst);
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

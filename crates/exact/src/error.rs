@@ -62,4 +62,14 @@ pub enum Error {
         /// Which light.
         light: usize,
     },
+    /// Stratified sampling needs every target of the scene, in order.
+    #[error(
+        "the targets listed cover {listed} m² of the lights' {total} m²: list those that do not face the receiver too"
+    )]
+    Unlisted {
+        /// Area of the targets listed, in m².
+        listed: f64,
+        /// Area of all lights, in m².
+        total: f64,
+    },
 }

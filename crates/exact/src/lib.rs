@@ -20,6 +20,7 @@ pub mod error;
 pub mod facet;
 pub mod facing;
 pub mod gauss;
+pub mod jittered;
 pub mod law;
 pub mod mis;
 pub mod moments;
@@ -35,6 +36,7 @@ pub mod visible;
 
 pub use error::Error;
 pub use facing::{Facing, Light};
+pub use jittered::variance_of_jittered;
 pub use sight::Sight;
 pub use strategy::{Draw, Selection, Strategy, Weighting};
 pub use value::Value;

@@ -7,6 +7,7 @@ mod crossings;
 mod degenerate;
 mod file;
 mod known;
+mod strata;
 mod stress;
 mod support;
 mod symmetry;

@@ -13,6 +13,14 @@ pub enum Error {
         /// Which target.
         target: u32,
     },
+    /// The area or power of a light is NaN, infinite or negative.
+    #[error(
+        "light {light} has an area or power that is not a finite number from zero up: check its vertices and emission"
+    )]
+    BadLight {
+        /// Which light.
+        light: usize,
+    },
     /// A target names a light that the scene's list of lights does not hold.
     #[error("target {target} belongs to light {light}, but only {lights} lights are listed")]
     NoSuchLight {

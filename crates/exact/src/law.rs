@@ -37,11 +37,11 @@ pub struct Law {
 /// Mean and variance of one sample, in one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// E[w].
+    /// E\[w\].
     pub mean: f64,
     /// Bound of the mean's error.
     pub mean_error: f64,
-    /// V[w].
+    /// V\[w\].
     pub variance: f64,
     /// Bound of the variance's error.
     pub error: f64,

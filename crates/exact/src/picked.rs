@@ -35,15 +35,12 @@ struct Group {
 /// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0.
 pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
     let groups = groups(sight, draw, selection);
-    let group_of = |light: usize| {
-        if selection == Selection::Together { 0 } else { light }
-    };
     let mut law = Law::default();
     for group in &groups {
         law.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
     for (index, seen) in sight.seen.iter().enumerate() {
-        let group = &groups[group_of(seen.light)];
+        let group = &groups[group_of(seen, selection)];
         if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
             return Err(Error::NeverPicked { light: seen.light });
         }
@@ -63,12 +60,16 @@ pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> R
 }
 
 fn part(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Part, Error> {
+    let kept = &seen.cubatures;
     match (draw, method) {
         (Draw::Uniform, Method::Edges) => Ok(spread::of_area(index, seen)),
-        (Draw::Uniform, Method::Cubature) => spread::by_cubature(index, seen, |y| [seen.g(y), 1.0]),
+        (Draw::Uniform, Method::Cubature) => {
+            kept.area.get_or_init(|| spread::by_cubature(index, seen, |y| [seen.g(y), 1.0])).clone()
+        }
         (Draw::SolidAngle, Method::Edges) => Ok(spread::of_solid_angle(index, seen)),
         (Draw::SolidAngle, Method::Cubature) => {
-            spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s))
+            let by_cubature = || spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s));
+            kept.solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::ProjectedSolidAngle, _) => Ok(spread::of_projected_solid_angle(index, seen)),
     }
@@ -119,34 +120,37 @@ fn hidden(seen: &Seen, draw: Draw) -> (f64, f64) {
 }
 
 fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Vec<Group> {
-    let lights = sight.lights.len();
-    if selection == Selection::Together {
-        return vec![group(sight, draw, 1.0, None)];
-    }
+    let areas: Vec<f64> = match selection {
+        Selection::Together => vec![sight.total_area()],
+        _ => sight.lights.iter().map(|light| light.area).collect(),
+    };
+    let per_group = |f: &dyn Fn(&Seen) -> f64| {
+        let mut sums = vec![0.0; areas.len()];
+        sight.seen.iter().for_each(|seen| sums[group_of(seen, selection)] += f(seen));
+        sums
+    };
     let weights: Vec<f64> = match selection {
-        Selection::Together | Selection::Uniform => vec![1.0; lights],
+        Selection::Together | Selection::Uniform => vec![1.0; areas.len()],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
-        Selection::Contribution => (0..lights).map(|light| contribution(sight, light)).collect(),
+        Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
     };
     let total: f64 = weights.iter().sum();
-    let pick = |weight: f64| if total > 0.0 { weight / total } else { 0.0 };
-    weights.iter().enumerate().map(|(light, &weight)| group(sight, draw, pick(weight), Some(light))).collect()
+    let listed = per_group(&|seen| whole(seen, draw));
+    let groups = weights.iter().zip(&listed).zip(&areas);
+    let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64;
+    groups
+        .map(|((&weight, &listed), &area)| {
+            let whole = if draw == Draw::Uniform { area } else { listed };
+            let rest = whole - listed;
+            Group {
+                pick: if total > 0.0 { weight / total } else { 0.0 },
+                whole,
+                unlisted: if rest.abs() <= rounding * whole { 0.0 } else { rest },
+            }
+        })
+        .collect()
 }
 
-fn group(sight: &Sight, draw: Draw, pick: f64, only: Option<usize>) -> Group {
-    let members = || sight.seen.iter().filter(|seen| only.is_none_or(|light| seen.light == light));
-    let listed: f64 = members().map(|seen| whole(seen, draw)).sum();
-    let whole = match (draw, only) {
-        (Draw::Uniform, None) => sight.total_area(),
-        (Draw::Uniform, Some(light)) => sight.lights[light].area,
-        _ => listed,
-    };
-    let rest = whole - listed;
-    let rounding = 4.0 * EPSILON * (members().count() + sight.lights.len()) as f64 * whole;
-    Group { pick, whole, unlisted: if rest.abs() <= rounding { 0.0 } else { rest } }
-}
-
-/// Luminance of a light's unoccluded irradiance.
-fn contribution(sight: &Sight, light: usize) -> f64 {
-    sight.seen.iter().filter(|seen| seen.light == light).map(|seen| seen.luminance * seen.open.m10).sum()
+fn group_of(seen: &Seen, selection: Selection) -> usize {
+    if selection == Selection::Together { 0 } else { seen.light }
 }

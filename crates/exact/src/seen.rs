@@ -1,6 +1,7 @@
 //! One facet as x sees it, with its moments.
 
 use std::array::from_fn;
+use std::sync::OnceLock;
 
 use glam::DVec3;
 
@@ -8,6 +9,7 @@ use crate::cubature::integrate;
 use crate::error::Error;
 use crate::facet::Facet;
 use crate::facing::Facing;
+use crate::law::Part;
 use crate::moments::{Moments, solid_angle_of};
 use crate::outline::line_integral;
 use crate::value::{EPSILON, luminance};
@@ -43,6 +45,17 @@ pub struct Seen {
     pub clipped: bool,
     /// The plane and outline.
     pub facet: Facet,
+    /// Spreads by cubature, kept because every selection of lights asks for the same ones.
+    pub(crate) cubatures: Cubatures,
+}
+
+/// Results that are computed when first asked for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cubatures {
+    /// Of g under dA.
+    pub area: OnceLock<Result<Part, Error>>,
+    /// Of cosθ_x under dω.
+    pub solid_angle: OnceLock<Result<Part, Error>>,
 }
 
 impl Seen {
@@ -77,6 +90,7 @@ impl Seen {
             blocked,
             clipped,
             facet,
+            cubatures: Cubatures::default(),
         })
     }
 

@@ -23,6 +23,10 @@ impl Sight {
     /// Numbers that are not finite, a receiver on a light, or more pieces than can be computed; see
     /// [`Error`].
     pub fn new(facing: &[Facing], lights: &[Light]) -> Result<Self, Error> {
+        let sound = |value: f64| value.is_finite() && value >= 0.0;
+        if let Some(light) = lights.iter().position(|light| !sound(light.area) || !sound(light.power)) {
+            return Err(Error::BadLight { light });
+        }
         let mut seen = Vec::with_capacity(facing.len());
         for target in facing {
             target.check(lights.len())?;

@@ -19,7 +19,7 @@ const TOO_ROUGH: f64 = 1e-9;
 const LUMINANCE: usize = 3;
 
 impl Sight {
-    /// V = E[w²] − E² of one sample of a strategy (of one pair for `mis`).
+    /// V = E\[w²\] − E² of one sample of a strategy (of one pair for `mis`).
     ///
     /// # Errors
     /// The reason why there is no value: cubature that does not converge, or a selection that never

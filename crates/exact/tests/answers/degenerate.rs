@@ -129,6 +129,8 @@ fn what_has_no_answer_is_refused() {
     assert_eq!(Sight::new(&[at(0.0)], &light).err(), Some(Error::OnLight { target: 7 }));
     assert_eq!(Sight::new(&[at(1.0)], &[]).err(), Some(Error::NoSuchLight { target: 7, light: 0, lights: 0 }));
     assert_eq!(Sight::new(&[at(f64::NAN)], &light).err(), Some(Error::NotFinite { target: 7 }));
+    let bad = [Light { area: 1.0, power: f64::NAN }];
+    assert_eq!(Sight::new(&[at(1.0)], &bad).err(), Some(Error::BadLight { light: 0 }));
     let mut blocked = at(1.0);
     blocked.blockers = vec![[DVec3::X, DVec3::INFINITY, DVec3::Y]];
     assert_eq!(Sight::new(&[blocked], &light).err(), Some(Error::NotFinite { target: 7 }));

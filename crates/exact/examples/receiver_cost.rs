@@ -1,7 +1,6 @@
 //! Measures what one receiver costs: `cargo run --release -p twoforms-exact --example receiver_cost`.
 //!
-//! A room 1 m wide with a square light in the ceiling and two blocks between (12 candidate
-//! blockers), over a grid of receivers on the floor; then a light above scattered triangles, from
+//! A room 1 m wide with a square light in the ceiling and two blocks between (20 triangles, all of them candidates), over a grid of receivers on the floor; then a light above scattered triangles, from
 //! one to 4096 of them.
 
 use std::hint::black_box;

@@ -1,0 +1,156 @@
+//! Estimators that draw a point on the lights, after picking a light or over all together.
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::law::{Law, Part};
+use crate::seen::Seen;
+use crate::sight::Sight;
+use crate::spread;
+use crate::strategy::{Draw, Selection};
+use crate::value::EPSILON;
+
+/// Spreads by edge sums, or by cubature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Sums over edges.
+    Edges,
+    /// Centred cubature.
+    Cubature,
+}
+
+/// Lights that are drawn on as one: the probability of picking them and their whole measure, hidden
+/// parts included.
+struct Group {
+    pick: f64,
+    whole: f64,
+    /// The part of `whole` that lies on targets that do not face x.
+    unlisted: f64,
+}
+
+/// The law of one sample: light ℓ with probability q_ℓ, then a point uniform in the draw's measure,
+/// T_ℓ in all: P = q_ℓ (visible)/T_ℓ and w = L u T_ℓ/q_ℓ with u = cosθ_x cosθ_y/r², cosθ_x or 1.
+///
+/// # Errors
+/// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0.
+pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
+    let groups = groups(sight, draw, selection);
+    let mut law = Law::default();
+    for group in &groups {
+        law.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
+    }
+    for (index, seen) in sight.seen.iter().enumerate() {
+        let group = &groups[group_of(seen, selection)];
+        if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
+            return Err(Error::NeverPicked { light: seen.light });
+        }
+        if group.pick <= 0.0 || group.whole <= 0.0 {
+            continue;
+        }
+        let share = group.pick / group.whole;
+        let (hidden, error) = hidden(seen, draw);
+        law.hidden += share * hidden;
+        law.hidden_error += share * error;
+        if seen.is_visible() {
+            law.parts.push(scaled(part(index, seen, draw, method)?, share));
+        }
+    }
+    law.hidden_error += 4.0 * EPSILON * law.hidden;
+    Ok(law)
+}
+
+fn part(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Part, Error> {
+    let kept = &seen.cubatures;
+    match (draw, method) {
+        (Draw::Uniform, Method::Edges) => Ok(spread::of_area(index, seen)),
+        (Draw::Uniform, Method::Cubature) => {
+            kept.area.get_or_init(|| spread::by_cubature(index, seen, |y| [seen.g(y), 1.0])).clone()
+        }
+        (Draw::SolidAngle, Method::Edges) => Ok(spread::of_solid_angle(index, seen)),
+        (Draw::SolidAngle, Method::Cubature) => {
+            let by_cubature = || spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s));
+            kept.solid_angle.get_or_init(by_cubature).clone()
+        }
+        (Draw::ProjectedSolidAngle, _) => Ok(spread::of_projected_solid_angle(index, seen)),
+    }
+}
+
+/// cosθ_x = z/r and dω/dA = s/r³.
+fn cos_x_and_d_omega(y: DVec3, s: f64) -> [f64; 2] {
+    let r2 = y.length_squared();
+    let r = r2.sqrt();
+    [y.z / r, s / (r2 * r)]
+}
+
+/// Probability = share × measure, value = u/share.
+fn scaled(part: Part, share: f64) -> Part {
+    Part {
+        seen: part.seen,
+        mass: part.mass * share,
+        mean: part.mean / share,
+        spread: part.spread / share,
+        mass_error: part.mass_error * share,
+        mean_error: part.mean_error / share,
+        spread_error: part.spread_error / share,
+    }
+}
+
+/// The measure of a facet as it is drawn on.
+fn whole(seen: &Seen, draw: Draw) -> f64 {
+    match draw {
+        Draw::Uniform => seen.area,
+        Draw::SolidAngle => seen.whole_solid_angle,
+        Draw::ProjectedSolidAngle => seen.open.m10,
+    }
+}
+
+/// The measure of what x does not see of a facet, and a bound of its error.
+fn hidden(seen: &Seen, draw: Draw) -> (f64, f64) {
+    let (open, moments) = (&seen.open, &seen.moments);
+    let partial = match draw {
+        Draw::ProjectedSolidAngle => seen.blocked,
+        Draw::Uniform | Draw::SolidAngle => seen.blocked || seen.clipped,
+    };
+    match draw {
+        _ if !partial => (0.0, 0.0),
+        Draw::Uniform => (seen.area - seen.visible_area, moments.area_error),
+        Draw::SolidAngle => (seen.whole_solid_angle - moments.solid_angle, open.error + moments.error),
+        Draw::ProjectedSolidAngle => (open.m10 - moments.m10, open.errors[1] + moments.errors[1]),
+    }
+}
+
+fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Vec<Group> {
+    let areas: Vec<f64> = match selection {
+        Selection::Together => vec![sight.total_area()],
+        _ => sight.lights.iter().map(|light| light.area).collect(),
+    };
+    let per_group = |f: &dyn Fn(&Seen) -> f64| {
+        let mut sums = vec![0.0; areas.len()];
+        sight.seen.iter().for_each(|seen| sums[group_of(seen, selection)] += f(seen));
+        sums
+    };
+    let weights: Vec<f64> = match selection {
+        Selection::Together | Selection::Uniform => vec![1.0; areas.len()],
+        Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
+        Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+    };
+    let total: f64 = weights.iter().sum();
+    let listed = per_group(&|seen| whole(seen, draw));
+    let groups = weights.iter().zip(&listed).zip(&areas);
+    let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64;
+    groups
+        .map(|((&weight, &listed), &area)| {
+            let whole = if draw == Draw::Uniform { area } else { listed };
+            let rest = whole - listed;
+            Group {
+                pick: if total > 0.0 { weight / total } else { 0.0 },
+                whole,
+                unlisted: if rest.abs() <= rounding * whole { 0.0 } else { rest },
+            }
+        })
+        .collect()
+}
+
+fn group_of(seen: &Seen, selection: Selection) -> usize {
+    if selection == Selection::Together { 0 } else { seen.light }
+}

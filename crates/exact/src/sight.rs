@@ -1,0 +1,68 @@
+//! All that x sees of the lights, and its irradiance.
+
+use crate::error::Error;
+use crate::facing::{Facing, Light};
+use crate::moments::Moments;
+use crate::seen::Seen;
+use crate::value::{EPSILON, Value, luminance};
+
+/// What one receiver sees of all lights.
+#[derive(Clone, Debug)]
+pub struct Sight {
+    /// The facets that emit toward x, in the order of their targets.
+    pub seen: Vec<Seen>,
+    /// All lights of the scene.
+    pub lights: Vec<Light>,
+}
+
+impl Sight {
+    /// Computes the visible part and the moments of every target. Targets that do not face x need
+    /// not be listed.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, a receiver on a light, or more pieces than can be computed; see
+    /// [`Error`].
+    pub fn new(facing: &[Facing], lights: &[Light]) -> Result<Self, Error> {
+        let sound = |value: f64| value.is_finite() && value >= 0.0;
+        if let Some(light) = lights.iter().position(|light| !sound(light.area) || !sound(light.power)) {
+            return Err(Error::BadLight { light });
+        }
+        let mut seen = Vec::with_capacity(facing.len());
+        for target in facing {
+            target.check(lights.len())?;
+            if target.faces {
+                seen.append(&mut Seen::facets(target)?);
+            }
+        }
+        Ok(Self { seen, lights: lights.to_vec() })
+    }
+
+    /// Area of all lights in m², each triangle once.
+    pub fn total_area(&self) -> f64 {
+        self.lights.iter().map(|light| light.area).sum()
+    }
+
+    /// E = ∫ L_e cosθ_x V dω.
+    pub fn irradiance(&self) -> Value {
+        self.sum(|seen| &seen.moments)
+    }
+
+    /// E with V = 1: what the lights would give if nothing stood before them.
+    pub fn irradiance_unoccluded(&self) -> Value {
+        self.sum(|seen| &seen.open)
+    }
+
+    /// Σ L_e M_10.
+    fn sum(&self, moments: impl Fn(&Seen) -> &Moments) -> Value {
+        let mut rgb = [0.0; 3];
+        let mut error_bound = 0.0;
+        for seen in &self.seen {
+            for (channel, radiance) in rgb.iter_mut().zip(seen.radiance) {
+                *channel += radiance * moments(seen).m10;
+            }
+            error_bound += seen.luminance * moments(seen).errors[1];
+        }
+        let luminance = luminance(rgb);
+        Value { rgb, luminance, error_bound: error_bound + EPSILON * (self.seen.len() + 4) as f64 * luminance }
+    }
+}

@@ -1,0 +1,119 @@
+//! The variance of one sample of each strategy.
+
+use std::f64::consts::PI;
+
+use crate::error::Error;
+use crate::law::{Colours, Law, Outcome};
+use crate::mis::{self, Optimal};
+use crate::moments::Moments;
+use crate::picked::{self, Method};
+use crate::seen::Seen;
+use crate::sight::Sight;
+use crate::strategy::{Draw, Selection, Strategy, Weighting};
+use crate::value::{EPSILON, Value};
+
+/// Relative error bound above which edge sums give way to cubature.
+const TOO_ROUGH: f64 = 1e-9;
+
+/// The channel of the luminance, after red, green and blue.
+const LUMINANCE: usize = 3;
+
+impl Sight {
+    /// V = E\[w²\] − E² of one sample of a strategy (of one pair for `mis`).
+    ///
+    /// # Errors
+    /// The reason why there is no value: cubature that does not converge, or a selection that never
+    /// picks a light that contributes.
+    pub fn variance(&self, strategy: Strategy) -> Result<Value, Error> {
+        match strategy {
+            Strategy::HemisphereUniform => {
+                Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2])))
+            }
+            Strategy::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
+            Strategy::HemisphereTowardLights(selection) => self.over_lights(Draw::Uniform, selection),
+            Strategy::Area(draw, selection) => self.over_lights(draw, selection),
+            Strategy::Mixture(0.0) => self.over_lights(Draw::Uniform, Selection::Together),
+            Strategy::Mixture(1.0) => self.variance(Strategy::HemisphereCosine),
+            Strategy::Mixture(a) => self.sum_of_laws(&[mis::mixture(self, a)?]),
+            Strategy::Mis(Weighting::Balance) => self.sum_of_laws(&mis::balance(self)?),
+            Strategy::Mis(Weighting::Power) => self.sum_of_laws(&mis::power(self)?),
+            Strategy::Mis(Weighting::Optimal) => self.optimal(),
+        }
+    }
+
+    /// The variances of several strategies, each or the reason why there is none.
+    pub fn variances(&self, strategies: &[Strategy]) -> Vec<(Strategy, Result<Value, Error>)> {
+        strategies.iter().map(|&strategy| (strategy, self.variance(strategy))).collect()
+    }
+
+    /// w = c L a or c L with E[w²] = c Σ L² M: c = 2π with M_20 for p = 1/2π, c = π with M_10 for p
+    /// = cosθ_x/π.
+    fn over_hemisphere(&self, c: f64, moment: impl Fn(&Moments) -> (f64, f64)) -> Value {
+        let colours = self.colours();
+        Value::of_outcomes(|channel| {
+            let mut outcome = Outcome::default();
+            let (mut second, mut second_error) = (0.0, 0.0);
+            for (seen, colour) in self.seen.iter().zip(&colours.0) {
+                let radiance = colour[channel];
+                let (moment, error) = moment(&seen.moments);
+                outcome.mean += radiance * seen.moments.m10;
+                outcome.mean_error += radiance * seen.moments.errors[1];
+                second += c * radiance * radiance * moment;
+                second_error += c * radiance * radiance * error;
+            }
+            outcome.variance = second - outcome.mean * outcome.mean;
+            outcome.error = second_error + 2.0 * outcome.mean * outcome.mean_error + 8.0 * EPSILON * second;
+            outcome
+        })
+    }
+
+    fn over_lights(&self, draw: Draw, selection: Selection) -> Result<Value, Error> {
+        let colours = self.colours();
+        let by_edges = picked::law(self, draw, selection, Method::Edges)?.variance(&colours);
+        if draw == Draw::ProjectedSolidAngle || by_edges.error_bound <= TOO_ROUGH * by_edges.luminance {
+            return Ok(by_edges);
+        }
+        let law = picked::law(self, draw, selection, Method::Cubature)?;
+        self.consistent(law.outcome(|seen| colours.0[seen][LUMINANCE]))?;
+        let by_cubature = law.variance(&colours);
+        Ok(if by_cubature.error_bound < by_edges.error_bound { by_cubature } else { by_edges })
+    }
+
+    /// Independent samples are added, so their variances add up.
+    fn sum_of_laws(&self, laws: &[Law]) -> Result<Value, Error> {
+        let colours = self.colours();
+        let sum = |channel: usize| {
+            let outcomes = laws.iter().map(|law| law.outcome(|seen| colours.0[seen][channel]));
+            outcomes.fold(Outcome::default(), |sum, o| Outcome {
+                mean: sum.mean + o.mean,
+                mean_error: sum.mean_error + o.mean_error,
+                variance: sum.variance + o.variance,
+                error: sum.error + o.error,
+            })
+        };
+        self.consistent(sum(LUMINANCE))?;
+        Ok(Value::of_outcomes(sum))
+    }
+
+    fn optimal(&self) -> Result<Value, Error> {
+        let (colours, optimal) = (self.colours(), Optimal::new(self)?);
+        let outcome = |channel: usize| optimal.outcome(|seen| colours.0[seen][channel]);
+        self.consistent(outcome(LUMINANCE))?;
+        Ok(Value::of_outcomes(outcome))
+    }
+
+    /// Refuses a variance whose own mean is not the irradiance.
+    fn consistent(&self, outcome: Outcome) -> Result<(), Error> {
+        let irradiance = self.irradiance();
+        let allowed = 1e-9 * irradiance.luminance + irradiance.error_bound + outcome.mean_error;
+        if (outcome.mean - irradiance.luminance).abs() <= allowed {
+            return Ok(());
+        }
+        Err(Error::Inconsistent { mean: outcome.mean, irradiance: irradiance.luminance })
+    }
+
+    fn colours(&self) -> Colours {
+        let colour = |seen: &Seen| [seen.radiance[0], seen.radiance[1], seen.radiance[2], seen.luminance];
+        Colours(self.seen.iter().map(colour).collect())
+    }
+}

@@ -1,17 +1,19 @@
 //! The experiment: strategies × samplers × sample counts × replicates at each receiver.
 
 use rayon::prelude::*;
-use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::{Prepared, Strategy};
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::view::{Effort, View};
 
+use crate::answer::Answer;
 use crate::clock;
+use crate::error::{Broken, ComparisonError};
 use crate::measurement::{Measurement, Task};
-use crate::place::{Place, Quantity};
+use crate::place::Place;
 use crate::result::ReceiverResult;
-use crate::rows;
+use crate::rows::Report;
+use crate::verdict::Criteria;
 use crate::world::World;
 
 /// What is compared, and how often.
@@ -27,24 +29,8 @@ pub struct Experiment {
     pub replicates: u32,
     /// The seed: equal seeds give equal results.
     pub seed: u64,
-}
-
-/// A sample that came out infinite or not a number, and where: the run stops there.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "{strategy} at receiver \"{receiver}\" (N = {samples}, replicate {replicate}): {source}; please report this with the scene"
-)]
-pub struct Broken {
-    /// The receiver.
-    pub receiver: String,
-    /// The strategy.
-    pub strategy: Strategy,
-    /// N.
-    pub samples: u32,
-    /// Which replicate.
-    pub replicate: u32,
-    /// The sample.
-    pub source: twoforms_estimator::estimator::NotFinite,
+    /// When a bias is found.
+    pub criteria: Criteria,
 }
 
 /// Receivers that are measured before any of them is reported.
@@ -77,17 +63,20 @@ impl Experiment {
     /// `progress` is told of samples drawn, from any thread.
     ///
     /// # Errors
-    /// When a sample is not finite.
+    /// When a strategy has no sampler, or a sample is not finite.
     pub fn run(
         &self,
         world: &World,
         places: &[Place],
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<Vec<ReceiverResult>, Broken> {
-        let prepared: Vec<Prepared> = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect();
+    ) -> Result<Vec<ReceiverResult>, ComparisonError> {
+        let prepared = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect::<Result<Vec<_>, _>>()?;
         let plans = self.plans(&prepared);
-        let groups = places.chunks(RECEIVERS_AT_ONCE).map(|group| self.group(world, group, &plans, progress));
-        Ok(groups.collect::<Result<Vec<_>, _>>()?.concat())
+        let mut report = Report::default();
+        for group in places.chunks(RECEIVERS_AT_ONCE) {
+            self.group(world, group, &plans, progress, &mut report)?;
+        }
+        Ok(report.judged(self.criteria))
     }
 
     fn plans<'a>(&self, prepared: &'a [Prepared]) -> Vec<Plan<'a>> {
@@ -106,35 +95,34 @@ impl Experiment {
         places: &[Place],
         plans: &[Plan],
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<Vec<ReceiverResult>, Broken> {
-        let views: Vec<(View, f64)> = places
-            .par_iter()
-            .map(|place| clock::timed(|| View::new(&world.geometry, place.frame(), Effort::Gather)))
-            .collect();
+        report: &mut Report,
+    ) -> Result<(), Broken> {
+        let ready: Vec<Ready> = places.par_iter().map(|place| Ready::new(world, place, &self.strategies)).collect();
         let tasks: Vec<Task> =
             (0..places.len()).flat_map(|p| (0..plans.len()).flat_map(move |r| self.tasks(p, r, &plans[r]))).collect();
         let measured: Vec<Result<Measurement, Broken>> = tasks
             .par_iter()
             .map(|task| {
                 let (place, plan) = (&places[task.place], &plans[task.plan]);
-                let part = self.measure(world, place, &views[task.place].0, plan, task)?;
+                let part = self.measure(world, place, &ready[task.place].view, plan, task)?;
                 progress(u64::from(plan.samples) * task.replicates.len() as u64);
                 Ok(part)
             })
             .collect();
         let parts = measured.into_iter().collect::<Result<Vec<Measurement>, Broken>>()?;
         let mut parts = tasks.iter().zip(parts).peekable();
-        let results = places.iter().enumerate().map(|(p, place)| {
-            let rows = plans.iter().enumerate().map(|(r, plan)| {
+        for (p, (place, ready)) in places.iter().zip(&ready).enumerate() {
+            let row = |(r, plan)| {
                 let mut measurement = Measurement::default();
                 while let Some((_, part)) = parts.next_if(|(task, _)| (task.place, task.plan) == (p, r)) {
                     measurement.add(part);
                 }
                 (plan, measurement)
-            });
-            rows::receiver_result(place, views[p].1, &rows.collect::<Vec<_>>(), &world.lights)
-        });
-        Ok(results.collect())
+            };
+            let rows: Vec<(&Plan, Measurement)> = plans.iter().enumerate().map(row).collect();
+            report.add(place, ready.setup_seconds, &rows, &ready.answer);
+        }
+        Ok(())
     }
 
     /// Cuts one row's replicates into tasks, by N and R alone.
@@ -153,24 +141,36 @@ impl Experiment {
         plan: &Plan,
         task: &Task,
     ) -> Result<Measurement, Broken> {
-        let (query, emission) = match place.quantity {
-            Quantity::Irradiance => (Query::irradiance(&world.lights), [0.0; 3]),
-            Quantity::Radiance { albedo, emission } => (Query::radiance(&world.lights, albedo), emission),
-        };
         let strategy = plan.prepared.strategy();
         let key = self.key(place, strategy, plan.sampler);
-        Measurement::of(plan, view, &query, emission, key, task).map_err(|(replicate, source)| Broken {
-            receiver: place.name.clone(),
-            strategy,
-            samples: plan.samples,
-            replicate,
-            source,
-        })
+        Measurement::of(plan, view, &place.query(&world.lights), place.emission(), key, task).map_err(
+            |(replicate, source)| Broken {
+                receiver: place.name.clone(),
+                strategy,
+                samples: plan.samples,
+                replicate,
+                source,
+            },
+        )
     }
 
     fn key(&self, place: &Place, strategy: Strategy, sampler: Sampler) -> Key {
         let names = format!("{}\n{sampler}", strategy.density_name());
         let words = [self.seed].into_iter().chain(place.bits());
         Key::new(words.chain(Key::words_of(&names)).collect::<Vec<u64>>())
+    }
+}
+
+/// A receiver with all that is worked out once before its rows.
+struct Ready<'g> {
+    view: View<'g>,
+    setup_seconds: f64,
+    answer: Answer,
+}
+
+impl<'g> Ready<'g> {
+    fn new(world: &'g World, place: &Place, strategies: &[Strategy]) -> Self {
+        let (view, setup_seconds) = clock::timed(|| View::new(&world.geometry, place.frame(), Effort::Gather));
+        Self { view, setup_seconds, answer: Answer::new(world, place, strategies) }
     }
 }

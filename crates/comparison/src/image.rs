@@ -8,12 +8,13 @@ use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::strategy::{Kernel, Prepared, Strategy};
+use twoforms_estimator::strategy::{Kernel, NotSampled, Prepared, Strategy};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_scene::Camera;
 
+use crate::error::{BrokenPixel, ComparisonError};
 use crate::viewpoint;
 use crate::world::{Seen, World};
 
@@ -104,22 +105,6 @@ pub struct Centre {
     pub albedo: [f32; 3],
 }
 
-/// A sample of an image that came out infinite or not a number.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{strategy} at pixel {x},{y}, camera sample {sample}: {source}; please report this with the scene")]
-pub struct BrokenPixel {
-    /// The strategy.
-    pub strategy: Strategy,
-    /// Column.
-    pub x: u32,
-    /// Row.
-    pub y: u32,
-    /// Camera sample.
-    pub sample: u32,
-    /// The sample.
-    pub source: NotFinite,
-}
-
 /// Light samples at one x from which gathering a view costs less than casting rays.
 const GATHER_FROM: u32 = 16;
 
@@ -128,14 +113,14 @@ impl Rendering {
     /// how many there are. `progress` is told of pixels done, from any thread.
     ///
     /// # Errors
-    /// When a sample is not finite.
+    /// When the strategy has no sampler, or a sample is not finite.
     pub fn run(
         &self,
         world: &World,
         camera: &Camera,
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<Vec<Pixel>, BrokenPixel> {
-        let painter = Painter::new(self, world, camera);
+    ) -> Result<Vec<Pixel>, ComparisonError> {
+        let painter = Painter::new(self, world, camera)?;
         let rows: Result<Vec<Vec<Pixel>>, BrokenPixel> = (self.crop.y0..self.crop.y1)
             .into_par_iter()
             .map(|y| {
@@ -165,17 +150,17 @@ struct Shaded {
 }
 
 impl<'a> Painter<'a> {
-    fn new(rendering: &'a Rendering, world: &'a World, camera: &'a Camera) -> Self {
+    fn new(rendering: &'a Rendering, world: &'a World, camera: &'a Camera) -> Result<Self, NotSampled> {
         let key = |name: &str| Key::new([rendering.seed].into_iter().chain(Key::words_of(name)));
         let names = format!("{}\n{}", rendering.strategy.density_name(), rendering.sampler);
-        Self {
+        Ok(Self {
             rendering,
             world,
             camera,
-            prepared: rendering.strategy.prepare(&world.lights),
+            prepared: rendering.strategy.prepare(&world.lights)?,
             camera_key: key("camera"),
             light_key: key(&names),
-        }
+        })
     }
 
     fn pixel(&self, x: u32, y: u32) -> Result<Pixel, BrokenPixel> {

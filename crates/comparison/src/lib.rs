@@ -1,6 +1,9 @@
 //! The experiment: strategies × samplers × sample counts × replicates → rows of means, variances and rates; and images.
 
+mod answer;
 mod clock;
+pub mod error;
+pub mod exactly;
 pub mod experiment;
 pub mod image;
 mod measurement;
@@ -8,5 +11,6 @@ pub mod place;
 pub mod result;
 mod rows;
 pub mod statistics;
+pub mod verdict;
 pub mod viewpoint;
 pub mod world;

@@ -48,7 +48,7 @@ impl Measurement {
         plan: &Plan,
         view: &View,
         query: &Query,
-        emission: [f32; 3],
+        emission: [f64; 3],
         key: Key,
         task: &Task,
     ) -> Result<Self, (u32, NotFinite)> {
@@ -68,8 +68,14 @@ impl Measurement {
         self.seconds += next.seconds;
     }
 
-    fn push(&mut self, estimate: &estimator::Estimate, emission: [f32; 3]) {
-        let value: [f64; 3] = std::array::from_fn(|c| estimate.value[c] + f64::from(emission[c]));
+    /// Pools the single samples of another row: their moments, hits and range.
+    pub(crate) fn with_samples_of(self, row: &Self) -> Self {
+        let (one, hits) = (self.one + row.one, self.hits + row.hits);
+        Self { one, hits, range: self.range.with(row.range), ..self }
+    }
+
+    fn push(&mut self, estimate: &estimator::Estimate, emission: [f64; 3]) {
+        let value: [f64; 3] = std::array::from_fn(|c| estimate.value[c] + emission[c]);
         self.estimates.push(luminance(value));
         self.total = std::array::from_fn(|c| self.total[c] + value[c]);
         self.one = self.one + estimate.luminance;
@@ -83,7 +89,7 @@ struct Replicates<'a> {
     plan: &'a Plan<'a>,
     key: Key,
     range: Range<u32>,
-    emission: [f32; 3],
+    emission: [f64; 3],
 }
 
 impl Kernel for Replicates<'_> {

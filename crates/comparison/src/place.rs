@@ -1,6 +1,8 @@
 //! Places: where the light is measured.
 
 use glam::DVec3;
+use twoforms_estimator::lights::Lights;
+use twoforms_estimator::query::Query;
 use twoforms_geometry::frame::Frame;
 use twoforms_scene::{KnownAnswer, Receiver};
 
@@ -42,6 +44,30 @@ impl Place {
             normal: receiver.normal,
             quantity: Quantity::Irradiance,
             known: receiver.known.clone(),
+        }
+    }
+
+    /// f_r, RGB: what scales the light that arrives.
+    pub(crate) fn f_r(&self) -> [f64; 3] {
+        match self.quantity {
+            Quantity::Irradiance => [1.0; 3],
+            Quantity::Radiance { albedo, .. } => albedo.map(|rho| f64::from(rho) * std::f64::consts::FRAC_1_PI),
+        }
+    }
+
+    /// L_e toward the eye from the surface itself, RGB.
+    pub(crate) fn emission(&self) -> [f64; 3] {
+        match self.quantity {
+            Quantity::Irradiance => [0.0; 3],
+            Quantity::Radiance { emission, .. } => emission.map(f64::from),
+        }
+    }
+
+    /// What estimators are asked.
+    pub(crate) fn query<'l>(&self, lights: &'l Lights) -> Query<'l> {
+        match self.quantity {
+            Quantity::Irradiance => Query::irradiance(lights),
+            Quantity::Radiance { albedo, .. } => Query::radiance(lights, albedo),
         }
     }
 

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use twoforms_estimator::lights::Lights;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
 
+use crate::answer::Answer;
 use crate::experiment::Plan;
 use crate::measurement::Measurement;
 use crate::place::{Place, Quantity};
@@ -14,56 +14,87 @@ use crate::result::{Chebyshev, Colour, Known, Rate, ReceiverResult, Row, Why};
 use crate::statistics::{
     LogVariance, Reason, TwoValued, chebyshev, efficiency, fit_rate, sample_mean, sample_variance, variance_interval,
 };
+use crate::verdict::{Criteria, Evidence, judge};
 
 /// δ of the Chebyshev bound that rows report: at most one replicate in twenty outside.
 const DELTA: f64 = 0.05;
 /// Hits from which samples that all have one value are taken for two-valued, the other value being zero.
 const HITS_OF_ONE_VALUE: u64 = 30;
 
-/// All that is said of one receiver.
-pub(crate) fn receiver_result(
-    place: &Place,
-    setup_seconds: f64,
-    measured: &[(&Plan, Measurement)],
-    lights: &Lights,
-) -> ReceiverResult {
-    let known = place.known.as_ref().filter(|_| place.quantity == Quantity::Irradiance).map(|known| Known {
+/// What a run has to say so far.
+#[derive(Default)]
+pub(crate) struct Report {
+    results: Vec<ReceiverResult>,
+    evidence: Vec<Evidence>,
+}
+
+impl Report {
+    /// Adds what was measured at one receiver, row by row.
+    pub(crate) fn add(
+        &mut self,
+        place: &Place,
+        setup_seconds: f64,
+        measured: &[(&Plan, Measurement)],
+        answer: &Answer,
+    ) {
+        let (receiver, emission) = (self.results.len(), luminance(place.emission()));
+        self.evidence.extend(evidence(receiver, emission, measured, answer));
+        let mut why = Why::new();
+        let exact = answer.irradiance().map_err(|reason| why.insert("exact", reason.to_owned())).ok();
+        self.results.push(ReceiverResult {
+            name: place.name.clone(),
+            position: place.position.to_array(),
+            normal: place.normal.to_array(),
+            setup_seconds,
+            rows: measured.iter().map(|(plan, measurement)| row(plan, measurement, answer)).collect(),
+            verdicts: Vec::new(),
+            rates: rates(measured),
+            exact,
+            known: known(place),
+            why,
+        });
+    }
+
+    /// The results with the verdicts over all of them.
+    pub(crate) fn judged(mut self, criteria: Criteria) -> Vec<ReceiverResult> {
+        for (evidence, verdict) in self.evidence.iter().zip(judge(&self.evidence, criteria)) {
+            self.results[evidence.receiver].verdicts.push(verdict);
+        }
+        self.results
+    }
+}
+
+fn known(place: &Place) -> Option<Known> {
+    let known = place.known.as_ref().filter(|_| place.quantity == Quantity::Irradiance)?;
+    Some(Known {
         irradiance: known.irradiance.into(),
         variance: known.variance.clone(),
         derivation: known.derivation.clone(),
-    });
-    let reference = Reference { known: known.as_ref(), one_colour: lights.one_colour() };
-    ReceiverResult {
-        name: place.name.clone(),
-        position: place.position.to_array(),
-        normal: place.normal.to_array(),
-        setup_seconds,
-        rows: measured.iter().map(|(plan, measurement)| row(plan, measurement, &reference)).collect(),
-        verdicts: Vec::new(),
-        rates: rates(measured),
-        exact: None,
-        why: Why::from([("exact", "no closed form is evaluated for this quantity".to_owned())]),
-        known,
-    }
+    })
 }
 
-/// What the scene says the answer is.
-struct Reference<'a> {
-    known: Option<&'a Known>,
-    one_colour: bool,
+/// The samples of each strategy and sampler, all N pooled, against the value that they should have; nothing where there
+/// is no exact value.
+fn evidence(receiver: usize, emission: f64, measured: &[(&Plan, Measurement)], answer: &Answer) -> Vec<Evidence> {
+    let Ok(exact) = answer.irradiance() else { return Vec::new() };
+    let of = |(strategy, sampler): (Strategy, Sampler)| {
+        let rows = measured.iter().filter(|(plan, _)| plan.pair() == (strategy, sampler));
+        let pooled = rows.fold(Measurement::default(), |pooled, (_, row)| pooled.with_samples_of(row));
+        Evidence {
+            receiver,
+            strategy: strategy.to_string(),
+            sampler: sampler.to_string(),
+            reference: (exact.irradiance.luminance - emission, exact.error_bound),
+            exact_variance: answer.variance_of_one(strategy).ok().filter(|_| sampler == Sampler::Independent),
+            samples: pooled.one,
+            hits: pooled.hits,
+            one_value: pooled.range.is_one_value().then_some(pooled.range.high),
+        }
+    };
+    pairs(measured).into_iter().map(of).collect()
 }
 
-impl Reference<'_> {
-    /// The known luminance variance of one sample, where the scene cites it per channel and all light has one colour:
-    /// then channels are proportional, and √V_Y = Σ l_c √V_c.
-    fn variance_of_one(&self, strategy: Strategy) -> Option<f64> {
-        let channels = self.known?.variance.get(&strategy.to_string())?;
-        let deviation = luminance(channels.map(f64::sqrt));
-        self.one_colour.then_some(deviation * deviation)
-    }
-}
-
-fn row(plan: &Plan, measured: &Measurement, reference: &Reference) -> Row {
+fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
     let mut why = Why::new();
     let replicates = measured.estimates.len();
     let strategy = plan.prepared.strategy();
@@ -73,8 +104,13 @@ fn row(plan: &Plan, measured: &Measurement, reference: &Reference) -> Row {
     });
     let interval = interval(plan, measured);
     let variance_interval = interval.map_err(|reason| why.insert("variance_interval", reason.to_string())).ok();
-    let variance_exact = reference.variance_of_one(strategy).filter(|_| plan.sampler == Sampler::Independent);
-    let variance_exact = or_why(&mut why, "variance_exact", variance_exact, || "no exact variance is known".into());
+    let exact = if plan.sampler == Sampler::Independent {
+        answer.variance_of_one(strategy)
+    } else {
+        Err("the exact variance is known for independent samples".to_owned())
+    };
+    let variance_exact = exact.map_err(|reason| why.insert("variance_exact", reason)).ok();
+    let variance_exact = variance_exact.map(|one| one / f64::from(plan.samples));
     let variance_of_one =
         or_why(&mut why, "variance_of_one", measured.one.variance(), || "there is a single sample".into());
     let efficiency = variance_of_mean.and_then(|variance| efficiency(variance, seconds));
@@ -86,9 +122,9 @@ fn row(plan: &Plan, measured: &Measurement, reference: &Reference) -> Row {
         mean: Colour::from(measured.total.map(|sum| sum / replicates as f64)),
         variance_of_mean,
         variance_interval,
-        variance_exact: variance_exact.map(|one| one / f64::from(plan.samples)),
+        variance_exact,
         variance_of_one,
-        chebyshev: kept(measured, reference, variance_exact.map(|one| one / f64::from(plan.samples))),
+        chebyshev: kept(measured, answer, variance_exact),
         rays: measured.rays as f64 / replicates as f64,
         seconds,
         efficiency: or_why(&mut why, "efficiency", efficiency, || "the variance or the time is zero or unknown".into()),
@@ -121,21 +157,27 @@ fn two_valued(plan: &Plan, measured: &Measurement) -> Option<TwoValued> {
     two.then_some(TwoValued { value: measured.range.high, hits: measured.hits, samples })
 }
 
-/// Chebyshev's bound about the known value, else about the mean; with the exact variance, else the measured one.
-fn kept(measured: &Measurement, reference: &Reference, exact: Option<f64>) -> Option<Chebyshev> {
-    let (centre, about) = match reference.known {
-        Some(known) => (known.irradiance.luminance, "known"),
-        None => (sample_mean(&measured.estimates)?, "mean"),
+/// Chebyshev's bound about the exact value, else about the mean; with the exact variance, else the measured one.
+fn kept(measured: &Measurement, answer: &Answer, exact: Option<f64>) -> Option<Chebyshev> {
+    let (centre, about) = match answer.irradiance() {
+        Ok(exact) => (exact.irradiance.luminance, "exact"),
+        Err(_) => (sample_mean(&measured.estimates)?, "mean"),
     };
     let sigma = exact.or_else(|| sample_variance(&measured.estimates))?.sqrt();
     let band = chebyshev(&measured.estimates, centre, sigma, DELTA)?;
     Some(Chebyshev { delta: DELTA, bound: band.bound, outside: band.outside, about })
 }
 
+/// The strategies and samplers of the rows, in their order.
+fn pairs(measured: &[(&Plan, Measurement)]) -> Vec<(Strategy, Sampler)> {
+    let mut pairs: Vec<(Strategy, Sampler)> = measured.iter().map(|(plan, _)| plan.pair()).collect();
+    pairs.dedup();
+    pairs
+}
+
 /// One fitted slope per strategy and sampler, in the order of the rows.
 fn rates(measured: &[(&Plan, Measurement)]) -> Vec<Rate> {
-    let mut order: Vec<(Strategy, Sampler)> = measured.iter().map(|(plan, _)| plan.pair()).collect();
-    order.dedup();
+    let order = pairs(measured);
     let mut points: BTreeMap<usize, Vec<(u64, LogVariance)>> = BTreeMap::new();
     for (plan, measurement) in measured {
         if let (Some(place), Ok(variance)) =

@@ -8,6 +8,7 @@ pub struct Lights {
     radiance: Vec<[f32; 3]>,
     area: Vec<f64>,
     light: Vec<usize>,
+    light_area: Vec<f64>,
     power: Vec<f64>,
 }
 
@@ -20,6 +21,7 @@ impl Lights {
             radiance: indices.clone().map(|k| scene.target_radiance(k)).collect(),
             area: targets.iter().map(|target| target.area(&scene.mesh)).collect(),
             light: indices.map(|k| scene.light_of(k)).collect(),
+            light_area: scene.lights.iter().map(|light| light.area).collect(),
             power: scene.lights.iter().map(|light| crate::rgb::luminance(light.power())).collect(),
         }
     }
@@ -50,6 +52,11 @@ impl Lights {
     /// The light that each target belongs to.
     pub fn light_of_target(&self) -> &[usize] {
         &self.light
+    }
+
+    /// Area of each light in square metres, once, whatever the sides.
+    pub fn light_areas(&self) -> &[f64] {
+        &self.light_area
     }
 
     /// Luminous power of each light: π A L for each side that emits.

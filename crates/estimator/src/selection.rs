@@ -7,41 +7,42 @@ use crate::lights::Lights;
 /// How the light is picked before a point on it: the word after `@`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Selection {
-    /// No light is picked: points are uniform over the area of all lights together.
-    ByArea,
-    /// Each light alike.
+    /// No light is picked: points are drawn over all lights together.
+    Together,
+    /// Each light alike: q = 1/n.
     Uniform,
-    /// Each light in proportion to its power, A·L·sides (L the luminance).
+    /// Each light in proportion to its power: q ∝ A·L·sides (L the luminance).
     Power,
+    /// Each light in proportion to the luminance of its unoccluded irradiance at x.
+    Contribution,
 }
 
-/// All selections.
-pub const SELECTIONS: [Selection; 3] = [Selection::ByArea, Selection::Uniform, Selection::Power];
-
 impl Selection {
-    /// Its word, empty for [`Selection::ByArea`].
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::ByArea => "",
-            Self::Uniform => "uniform",
-            Self::Power => "power",
-        }
-    }
+    /// All selections.
+    pub const ALL: [Self; 4] = [Self::Together, Self::Uniform, Self::Power, Self::Contribution];
 
-    /// The probability of each target, up to a common factor: that of its light, then its share of the light's area.
-    fn weights(self, lights: &Lights) -> Vec<f64> {
-        let mut light_area = vec![0.0; lights.powers().len()];
-        for (&light, area) in lights.light_of_target().iter().zip(lights.areas()) {
-            light_area[light] += area;
+    /// What it adds to a strategy's name.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Together => "",
+            Self::Uniform => "@uniform",
+            Self::Power => "@power",
+            Self::Contribution => "@contribution",
         }
-        let of_light = |light: usize| match self {
-            Self::ByArea => light_area[light],
-            Self::Uniform => 1.0,
-            Self::Power => lights.powers()[light],
-        };
-        let share = |(&light, area): (&usize, &f64)| of_light(light) * area / light_area[light];
-        lights.light_of_target().iter().zip(lights.areas()).map(share).collect()
     }
+}
+
+/// The probability of each target, up to a common factor: that of its light, then its share of the light's area. `None`
+/// where the probability depends on x.
+fn weights(selection: Selection, lights: &Lights) -> Option<Vec<f64>> {
+    let of_light = |light: usize| match selection {
+        Selection::Together => Some(lights.light_areas()[light]),
+        Selection::Uniform => Some(1.0),
+        Selection::Power => Some(lights.powers()[light]),
+        Selection::Contribution => None,
+    };
+    let targets = lights.light_of_target().iter().zip(lights.areas());
+    targets.map(|(&light, area)| Some(of_light(light)? * area / lights.light_areas()[light])).collect()
 }
 
 /// A discrete distribution over targets, drawn from by inversion of its CDF in scene order.
@@ -61,14 +62,15 @@ pub struct Picker {
 const WORDS: u64 = 1 << 32;
 
 impl Picker {
-    /// The distribution of `selection` over the targets of `lights`; there must be at least one target.
-    pub fn new(selection: Selection, lights: &Lights) -> Self {
-        let bounds = bounds(&selection.weights(lights));
+    /// The distribution of `selection` over the targets of `lights`, of which there must be one; `None` where it depends
+    /// on x.
+    pub fn new(selection: Selection, lights: &Lights) -> Option<Self> {
+        let bounds = bounds(&weights(selection, lights)?);
         let widths: Vec<u64> = bounds.windows(2).map(|b| b[1] - b[0]).collect();
         let probability = |width: &u64| *width as f64 / WORDS as f64;
         let density = widths.iter().zip(lights.areas()).map(|(w, area)| (probability(w) / area) as f32).collect();
         let scale = widths.iter().map(|&width| (1.0 / width as f64) as f32).collect();
-        Self { bounds, density, scale }
+        Some(Self { bounds, density, scale })
     }
 
     /// The target that a random word picks, and the word rescaled to a uniform number.

@@ -1,4 +1,5 @@
-//! The catalogue of strategies: `formulation/density[@selection]`. One list serves the command line, the tests and reports.
+//! The catalogue of strategies: `formulation/density[@selection]`. One list of names serves the command line, exact
+//! light, the tests and reports. Some strategies have an exact variance and no sampler yet: [`Strategy::prepare`] says so.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,10 +11,10 @@ use crate::estimator::Estimator;
 use crate::formulation::{Area, Formulation, Hemisphere};
 use crate::lights::Lights;
 use crate::query::Query;
-use crate::selection::{Picker, SELECTIONS, Selection};
+use crate::selection::{Picker, Selection};
 
-/// A formulation with a density of its measure, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// A formulation with a density of its measure, or a combination of two, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strategy {
     /// `hemisphere/uniform`: p(Ψ) = 1/2π.
     HemisphereUniform,
@@ -21,26 +22,64 @@ pub enum Strategy {
     HemisphereCosine,
     /// `hemisphere/toward-lights[@selection]`: the density of `area/uniform`, the integral over the hemisphere.
     HemisphereTowardLights(Selection),
-    /// `area/uniform[@selection]`: uniform over the lights' area, or over that of a light picked first.
-    AreaUniform(Selection),
+    /// `area/draw[@selection]`: points on the lights, uniform in a measure.
+    Area(Draw, Selection),
+    /// `mis/…`: one sample of `area/uniform` and one of `hemisphere/cosine`, weighted.
+    Mis(Weighting),
+    /// `mixture/A`: one sample from A · `hemisphere/cosine` + (1 − A) · `area/uniform`, 0 <= A <= 1.
+    Mixture(f64),
+}
+
+/// The measure in which points are uniform over the lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Draw {
+    /// Area, back-facing targets included.
+    Uniform,
+    /// Solid angle of the targets that face x, not clipped to the horizon.
+    SolidAngle,
+    /// Projected solid angle of the targets that face x, clipped to the horizon.
+    ProjectedSolidAngle,
+}
+
+/// How two samples are weighted (Veach 1997, chapter 9; optimal: Kondapaneni et al. 2019).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Weighting {
+    /// w_i = p_i / (p_a + p_h).
+    Balance,
+    /// w_i = p_i² / (p_a² + p_h²).
+    Power,
+    /// The weights of least variance, with the known α.
+    Optimal,
 }
 
 impl Strategy {
-    /// All strategies.
+    /// All strategies that can be sampled.
     pub fn all() -> Vec<Self> {
-        let toward = SELECTIONS.map(Self::HemisphereTowardLights);
-        let area = SELECTIONS.map(Self::AreaUniform);
+        use Selection::{Power, Together, Uniform};
+        let selections = [Together, Uniform, Power];
+        let toward = selections.map(Self::HemisphereTowardLights);
+        let area = selections.map(|selection| Self::Area(Draw::Uniform, selection));
         [&[Self::HemisphereUniform, Self::HemisphereCosine], &toward[..], &area[..]].concat()
+    }
+
+    /// All strategies that have an exact variance; mixtures by some of their many names.
+    pub fn with_exact_variance() -> Vec<Self> {
+        let toward = Selection::ALL.map(Self::HemisphereTowardLights);
+        let area = |draw| Selection::ALL.map(|selection| Self::Area(draw, selection));
+        let areas = [Draw::Uniform, Draw::SolidAngle, Draw::ProjectedSolidAngle].map(area).concat();
+        let mis = [Weighting::Balance, Weighting::Power, Weighting::Optimal].map(Self::Mis);
+        let mixtures = [0.1, 0.5].map(Self::Mixture);
+        [&[Self::HemisphereUniform, Self::HemisphereCosine], &toward[..], &areas, &mis, &mixtures].concat()
     }
 
     /// What `compare` compares when nothing is said.
     pub fn defaults() -> Vec<Self> {
-        let selection = Selection::ByArea;
+        let together = Selection::Together;
         vec![
             Self::HemisphereUniform,
             Self::HemisphereCosine,
-            Self::HemisphereTowardLights(selection),
-            Self::AreaUniform(selection),
+            Self::HemisphereTowardLights(together),
+            Self::Area(Draw::Uniform, together),
         ]
     }
 
@@ -48,7 +87,7 @@ impl Strategy {
     /// are points of lights.
     pub fn density_name(self) -> String {
         match self {
-            Self::HemisphereTowardLights(selection) => Self::AreaUniform(selection).to_string(),
+            Self::HemisphereTowardLights(selection) => Self::Area(Draw::Uniform, selection).to_string(),
             other => other.to_string(),
         }
     }
@@ -59,41 +98,74 @@ impl Strategy {
             Self::HemisphereUniform => "directions uniform over the hemisphere, p = 1/2π",
             Self::HemisphereCosine => "directions by the cosine, p = cosθ/π",
             Self::HemisphereTowardLights(_) => {
-                "directions toward points drawn as area/uniform does: its density, the other integral"
+                "directions toward points of area/uniform: its density, the other integral"
             }
-            Self::AreaUniform(Selection::ByArea) => "points uniform over the area of all lights, p = 1/A",
-            Self::AreaUniform(Selection::Uniform) => "a light first, each alike, then a point uniform over it",
-            Self::AreaUniform(Selection::Power) => "a light first, by its power, then a point uniform over it",
-        }
-    }
-
-    fn selection(self) -> Selection {
-        match self {
-            Self::HemisphereUniform | Self::HemisphereCosine => Selection::ByArea,
-            Self::HemisphereTowardLights(selection) | Self::AreaUniform(selection) => selection,
+            Self::Area(draw, Selection::Together) => match draw {
+                Draw::Uniform => "points uniform over the area of all lights, p = 1/A",
+                Draw::SolidAngle => "points uniform in the lights' solid angle",
+                Draw::ProjectedSolidAngle => "points uniform in the lights' projected solid angle",
+            },
+            Self::Area(_, Selection::Uniform) => "a light first, each alike, then a point on it",
+            Self::Area(_, Selection::Power) => "a light first, by its power, then a point on it",
+            Self::Area(_, Selection::Contribution) => {
+                "a light first, by what it would give unoccluded, then a point on it"
+            }
+            Self::Mis(Weighting::Balance) => "a point and a direction, weighted by the balance heuristic",
+            Self::Mis(Weighting::Power) => "a point and a direction, weighted by the power heuristic",
+            Self::Mis(Weighting::Optimal) => "a point and a direction, with the weights of least variance",
+            Self::Mixture(_) => "a direction with probability A, else a point",
         }
     }
 
     /// Builds what the strategy needs once per scene. The scene must have a light.
-    pub fn prepare(self, lights: &Lights) -> Prepared {
-        Prepared { strategy: self, picker: Picker::new(self.selection(), lights) }
+    ///
+    /// # Errors
+    /// When the strategy has an exact variance but no sampler.
+    pub fn prepare(self, lights: &Lights) -> Result<Prepared, NotSampled> {
+        let not_sampled = NotSampled { strategy: self };
+        let picker = |selection| Picker::new(selection, lights).ok_or(not_sampled);
+        let density = match self {
+            Self::HemisphereUniform => Ready::HemisphereUniform,
+            Self::HemisphereCosine => Ready::HemisphereCosine,
+            Self::HemisphereTowardLights(selection) => Ready::HemisphereTowardLights(picker(selection)?),
+            Self::Area(Draw::Uniform, selection) => Ready::AreaUniform(picker(selection)?),
+            Self::Area(..) | Self::Mis(_) | Self::Mixture(_) => return Err(not_sampled),
+        };
+        Ok(Prepared { strategy: self, density })
+    }
+
+    /// Whether it can be sampled.
+    pub fn is_sampled(self) -> bool {
+        Self::all().contains(&self)
+    }
+
+    fn selection(self) -> Selection {
+        match self {
+            Self::HemisphereTowardLights(selection) | Self::Area(_, selection) => selection,
+            _ => Selection::Together,
+        }
     }
 }
 
 impl fmt::Display for Strategy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        let density = match self {
             Self::HemisphereUniform => "hemisphere/uniform",
             Self::HemisphereCosine => "hemisphere/cosine",
             Self::HemisphereTowardLights(_) => "hemisphere/toward-lights",
-            Self::AreaUniform(_) => "area/uniform",
-        })?;
-        match self.selection() {
-            Selection::ByArea => Ok(()),
-            selection => write!(f, "@{}", selection.word()),
-        }
+            Self::Area(Draw::Uniform, _) => "area/uniform",
+            Self::Area(Draw::SolidAngle, _) => "area/solid-angle",
+            Self::Area(Draw::ProjectedSolidAngle, _) => "area/projected-solid-angle",
+            Self::Mis(Weighting::Balance) => "mis/balance",
+            Self::Mis(Weighting::Power) => "mis/power",
+            Self::Mis(Weighting::Optimal) => "mis/optimal",
+            Self::Mixture(share) => return write!(f, "{MIXTURE}{share}"),
+        };
+        write!(f, "{density}{}", self.selection().suffix())
     }
 }
+
+const MIXTURE: &str = "mixture/";
 
 /// A name that no strategy has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -107,19 +179,36 @@ pub struct UnknownStrategy {
     pub all: String,
 }
 
+/// A strategy that is known, and its variance too, but that has no sampler.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("\"{strategy}\" has an exact variance but no sampler yet: use `twoforms exact`, or one of {}", sampled())]
+pub struct NotSampled {
+    /// Which strategy.
+    pub strategy: Strategy,
+}
+
+fn sampled() -> String {
+    joined(&Strategy::all())
+}
+
+fn joined(strategies: &[Strategy]) -> String {
+    strategies.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
 impl FromStr for Strategy {
     type Err = UnknownStrategy;
 
     fn from_str(name: &str) -> Result<Self, UnknownStrategy> {
-        let all = Self::all();
-        all.iter().copied().find(|strategy| strategy.to_string() == name).ok_or_else(|| {
-            let names: Vec<String> = all.iter().map(ToString::to_string).collect();
-            let nearest =
-                names.iter().max_by(|a, b| strsim::jaro_winkler(a, name).total_cmp(&strsim::jaro_winkler(b, name)));
+        let all = Self::with_exact_variance();
+        let mixture =
+            || Some(Self::Mixture(name.strip_prefix(MIXTURE)?.parse().ok().filter(|a| (0.0..=1.0).contains(a))?));
+        all.iter().copied().find(|strategy| strategy.to_string() == name).or_else(mixture).ok_or_else(|| {
+            let likeness = |strategy: &&Self| strsim::jaro_winkler(&strategy.to_string(), name);
+            let nearest = all.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
             UnknownStrategy {
                 name: name.to_owned(),
-                nearest: nearest.cloned().unwrap_or_default(),
-                all: names.join(", "),
+                nearest: nearest.map(ToString::to_string).unwrap_or_default(),
+                all: joined(&all),
             }
         })
     }
@@ -129,7 +218,16 @@ impl FromStr for Strategy {
 #[derive(Clone, Debug)]
 pub struct Prepared {
     strategy: Strategy,
-    picker: Picker,
+    density: Ready,
+}
+
+/// The densities, each with its tables.
+#[derive(Clone, Debug)]
+enum Ready {
+    HemisphereUniform,
+    HemisphereCosine,
+    HemisphereTowardLights(Picker),
+    AreaUniform(Picker),
 }
 
 /// Something to do with an estimator, whichever it is: matched once, then wholly inlined.
@@ -148,14 +246,46 @@ impl Prepared {
 
     /// Runs the kernel with this strategy's estimator at x.
     pub fn run<K: Kernel>(&self, view: &View, query: &Query, kernel: K) -> K::Output {
-        let lights = OnLights { picker: &self.picker };
-        match self.strategy {
-            Strategy::HemisphereUniform => kernel.run(&Estimator::<Hemisphere, _>::new(view, query, UniformHemisphere)),
-            Strategy::HemisphereCosine => kernel.run(&Estimator::<Hemisphere, _>::new(view, query, CosineHemisphere)),
-            Strategy::HemisphereTowardLights(_) => {
-                kernel.run(&Estimator::<Hemisphere, _>::new(view, query, TowardLights { lights }))
+        match &self.density {
+            Ready::HemisphereUniform => kernel.run(&Estimator::<Hemisphere, _>::new(view, query, UniformHemisphere)),
+            Ready::HemisphereCosine => kernel.run(&Estimator::<Hemisphere, _>::new(view, query, CosineHemisphere)),
+            Ready::HemisphereTowardLights(picker) => {
+                let toward = TowardLights { lights: OnLights { picker } };
+                kernel.run(&Estimator::<Hemisphere, _>::new(view, query, toward))
             }
-            Strategy::AreaUniform(_) => kernel.run(&Estimator::<Area, _>::new(view, query, lights)),
+            Ready::AreaUniform(picker) => kernel.run(&Estimator::<Area, _>::new(view, query, OnLights { picker })),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Strategy;
+
+    #[test]
+    fn every_name_is_read_as_it_is_written() {
+        for strategy in Strategy::with_exact_variance().into_iter().chain(Strategy::all()) {
+            assert_eq!(strategy.to_string().parse(), Ok(strategy));
+        }
+        assert_eq!("mixture/0.25".parse(), Ok(Strategy::Mixture(0.25)));
+    }
+
+    #[test]
+    fn what_can_be_sampled_has_an_exact_variance() {
+        let exact = Strategy::with_exact_variance();
+        assert!(Strategy::all().iter().all(|strategy| exact.contains(strategy)));
+    }
+
+    #[test]
+    fn other_names_are_refused_with_the_nearest() {
+        for (name, nearest) in
+            [("area/unifrom", "area/uniform"), ("cosine", "hemisphere/cosine"), ("mixture/2", "mixture/0.1")]
+        {
+            let refused = name.parse::<Strategy>().map_err(|unknown| unknown.nearest);
+            assert!(refused.is_err(), "{name}");
+            if name != "cosine" {
+                assert_eq!(refused, Err(nearest.to_owned()));
+            }
         }
     }
 }

@@ -7,7 +7,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::{DQuat, DVec3};
-use twoforms_exact::{Draw, Facing, Light, Selection, Sight, Strategy, Weighting};
+use twoforms_estimator::selection::Selection;
+use twoforms_estimator::strategy::{Draw, Strategy, Weighting};
+use twoforms_exact::{Facing, Light, Sight};
 
 const CLOSED: [Strategy; 10] = [
     Strategy::HemisphereUniform,

@@ -5,8 +5,9 @@ use glam::DVec3;
 use crate::error::Error;
 use crate::facing::{Facing, Light};
 use crate::sight::Sight;
-use crate::strategy::{Draw, Selection, Strategy};
 use crate::value::Value;
+use twoforms_estimator::selection::Selection;
+use twoforms_estimator::strategy::{Draw, Strategy};
 
 /// Variance of the mean of N = n × n samples of `area/uniform`, one in each cell of an n × n grid over (u, v).
 ///

@@ -10,8 +10,6 @@
 //! In words of the rendering equation: E = ∫ L_e cosθ_x V dω, f_r = 1. For a diffuse surface
 //! multiply E by ρ/π and variances by (ρ/π)².
 
-#![allow(clippy::doc_markdown, reason = "formulas stand in plain text: L_e, M_10, cosθ_x")]
-
 pub mod arc;
 pub mod clip;
 pub mod cone;
@@ -26,10 +24,10 @@ pub mod mis;
 pub mod moments;
 pub mod outline;
 pub mod picked;
+pub mod receiver;
 pub mod seen;
 pub mod sight;
 pub mod spread;
-pub mod strategy;
 pub mod value;
 pub mod variance;
 pub mod visible;
@@ -38,5 +36,4 @@ pub use error::Error;
 pub use facing::{Facing, Light};
 pub use jittered::variance_of_jittered;
 pub use sight::Sight;
-pub use strategy::{Draw, Selection, Strategy, Weighting};
 pub use value::Value;

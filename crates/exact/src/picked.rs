@@ -7,8 +7,9 @@ use crate::law::{Law, Part};
 use crate::seen::Seen;
 use crate::sight::Sight;
 use crate::spread;
-use crate::strategy::{Draw, Selection};
 use crate::value::EPSILON;
+use twoforms_estimator::selection::Selection;
+use twoforms_estimator::strategy::Draw;
 
 /// Spreads by edge sums, or by cubature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

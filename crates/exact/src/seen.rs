@@ -12,8 +12,9 @@ use crate::facing::Facing;
 use crate::law::Part;
 use crate::moments::{Moments, solid_angle_of};
 use crate::outline::line_integral;
-use crate::value::{EPSILON, luminance};
+use crate::value::EPSILON;
 use crate::visible::{LIMIT, Pieces, Visible, above_horizon, subtract};
+use twoforms_estimator::rgb::luminance;
 
 /// Relative error bound above which an edge sum gives way to cubature.
 const TOO_ROUGH: f64 = 1e-11;

@@ -4,7 +4,8 @@ use crate::error::Error;
 use crate::facing::{Facing, Light};
 use crate::moments::Moments;
 use crate::seen::Seen;
-use crate::value::{EPSILON, Value, luminance};
+use crate::value::{EPSILON, Value};
+use twoforms_estimator::rgb::luminance;
 
 /// What one receiver sees of all lights.
 #[derive(Clone, Debug)]

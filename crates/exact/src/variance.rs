@@ -9,8 +9,9 @@ use crate::moments::Moments;
 use crate::picked::{self, Method};
 use crate::seen::Seen;
 use crate::sight::Sight;
-use crate::strategy::{Draw, Selection, Strategy, Weighting};
 use crate::value::{EPSILON, Value};
+use twoforms_estimator::selection::Selection;
+use twoforms_estimator::strategy::{Draw, Strategy, Weighting};
 
 /// Relative error bound above which edge sums give way to cubature.
 const TOO_ROUGH: f64 = 1e-9;

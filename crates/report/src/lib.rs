@@ -13,6 +13,7 @@
 pub mod csv;
 pub mod document;
 pub mod error;
+pub mod exact;
 pub mod exr;
 pub mod file;
 pub mod image;
@@ -32,6 +33,7 @@ mod rates;
 
 pub use document::Document;
 pub use error::ReportError;
+pub use exact::ExactDocument;
 pub use image::{Channel, Image};
 pub use provenance::{Provenance, Setting};
 pub use table::Detail;

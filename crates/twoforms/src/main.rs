@@ -5,6 +5,7 @@ mod args;
 mod command;
 mod output;
 mod places;
+mod points;
 mod progress;
 mod run;
 
@@ -13,21 +14,25 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use args::{Args, Command};
+use command::compare::Found;
 
 /// 0: done · 1: the input or the run failed · 2: wrong usage (chosen by clap) · 3: a check found a biased estimator.
 fn main() -> ExitCode {
     let args = Args::parse();
+    let nothing = |()| Found::Nothing;
     let done = match &args.command {
         Command::Compare(compare) => command::compare::run(compare),
-        Command::Render(render) => command::render::run(render),
-        Command::Inspect(inspect) => command::inspect::run(inspect),
-        Command::Completions { shell } => command::completions::run(*shell),
+        Command::Exact(exact) => command::exact::run(exact).map(nothing),
+        Command::Render(render) => command::render::run(render).map(nothing),
+        Command::Inspect(inspect) => command::inspect::run(inspect).map(nothing),
+        Command::Completions { shell } => command::completions::run(*shell).map(nothing).map_err(Into::into),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(Found::Nothing) => ExitCode::SUCCESS,
+        Ok(Found::Bias) => ExitCode::from(3),
         Err(error) if output::reader_left(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("twoforms: {error:#}");
+            output::say(&format!("twoforms: {error:#}"));
             ExitCode::from(1)
         }
     }

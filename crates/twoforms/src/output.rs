@@ -3,7 +3,6 @@
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
 use twoforms_report::{Detail, Document, ReportError, csv, file, json, table};
 
 use crate::args::Format;
@@ -18,7 +17,7 @@ pub struct Destination<'a> {
 
 impl<'a> Destination<'a> {
     /// Tries every place that will be written to.
-    pub fn new(format: Format, output: Option<&'a Path>, folder: Option<&'a Path>) -> Result<Self> {
+    pub fn new(format: Format, output: Option<&'a Path>, folder: Option<&'a Path>) -> Result<Self, ReportError> {
         if let Some(path) = output {
             file::check(path)?;
         }
@@ -32,21 +31,13 @@ impl<'a> Destination<'a> {
     }
 
     /// Writes the folder, then the file or standard output.
-    pub fn write(&self, document: &Document) -> Result<()> {
+    pub fn write(&self, document: &Document) -> Result<(), ReportError> {
         if let Some(folder) = self.folder {
             let [json_path, csv_path] = in_folder(folder);
             file::save(&json_path, |out| json::write(document, out))?;
             file::save(&csv_path, |out| csv::write(document, out))?;
         }
-        match self.output {
-            Some(path) => file::save(path, |out| self.print(document, out))?,
-            None => {
-                let mut out = BufWriter::new(io::stdout().lock());
-                self.print(document, &mut out)?;
-                out.flush()?;
-            }
-        }
-        Ok(())
+        write_to(self.output, |out| self.print(document, out))
     }
 
     fn print(&self, document: &Document, mut out: &mut dyn Write) -> Result<(), ReportError> {
@@ -61,21 +52,63 @@ impl<'a> Destination<'a> {
     }
 }
 
+/// Writes to `output`, or to standard output where there is none.
+pub fn write_to(
+    output: Option<&Path>,
+    content: impl Fn(&mut dyn Write) -> Result<(), ReportError>,
+) -> Result<(), ReportError> {
+    if let Some(path) = output {
+        return file::save(path, content);
+    }
+    let mut out = BufWriter::new(io::stdout().lock());
+    content(&mut out)?;
+    Ok(out.flush()?)
+}
+
 fn in_folder(folder: &Path) -> [PathBuf; 2] {
     [folder.join("compare.json"), folder.join("compare.csv")]
 }
 
 /// Prints to standard output.
-pub fn print(text: &str) -> Result<()> {
+pub fn print(text: &str) -> Result<(), ReportError> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     Ok(out.flush()?)
 }
 
+/// Says one line on standard error. Where that takes nothing, there is nobody left to tell.
+pub fn say(line: &str) {
+    let _ = writeln!(io::stderr(), "{}", plain(line));
+}
+
+/// A text in one line, without the characters that command a terminal: names come from files.
+pub fn plain(text: &str) -> String {
+    let written = |c: char| if c.is_control() { c.escape_default().collect() } else { String::from(c) };
+    text.chars().map(written).collect()
+}
+
+/// `1 light`, `2 lights`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Whether an error only says that the reader of standard output has left, as `head` does: no failure.
 pub fn reader_left(error: &anyhow::Error) -> bool {
-    let broken = |cause: &(dyn std::error::Error + 'static)| {
-        cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
-    };
-    error.chain().any(broken)
+    let stream = error.downcast_ref::<ReportError>();
+    stream.is_some_and(|error| matches!(error, ReportError::Stream { cause } if cause.kind() == ErrorKind::BrokenPipe))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{counted, plain};
+
+    #[test]
+    fn a_name_from_a_file_cannot_command_the_terminal() {
+        assert_eq!(plain("\u{1b}[31mred\nline é"), "\\u{1b}[31mred\\nline é");
+    }
+
+    #[test]
+    fn one_is_singular() {
+        assert_eq!([counted(0, "light"), counted(1, "light")], ["0 lights", "1 light"]);
+    }
 }

@@ -1,8 +1,5 @@
 //! From the command line's receivers to places in the scene.
 
-use std::fs;
-use std::path::Path;
-
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
 use twoforms_comparison::place::{Place, Quantity};
@@ -10,19 +7,25 @@ use twoforms_comparison::viewpoint;
 use twoforms_comparison::world::{Seen, World};
 use twoforms_scene::Camera;
 
-use crate::args::{At, CameraArgs, ImageSize, Pair, QuantityArg, ReceiverArgs};
+use crate::args::{At, CameraArgs, ImageSize, Pair, PlacesArgs, QuantityArg, ReceiverArgs, RunArgs};
+use crate::{points, run};
 
 /// Cells on a side of the grid that is taken where a scene has no receivers of its own.
 const DEFAULT_GRID: u32 = 8;
 
 /// The places that the command line asks for, never none.
-pub fn places(world: &World, args: &ReceiverArgs, camera: &CameraArgs, quantity: QuantityArg) -> Result<Vec<Place>> {
-    let finder = Finder { world, args, camera, quantity };
+pub fn places(world: &World, places: &PlacesArgs, run: &RunArgs) -> Result<Vec<Place>> {
+    let PlacesArgs { receivers: args, camera, quantity } = places;
+    let note = |line: &str| run::note(run, line);
+    let finder = Finder { world, args, camera, quantity: *quantity, note: &note };
+    if camera.camera.is_some() {
+        self::camera(world, camera)?; // a name that no camera has is told even where nothing looks through it
+    }
     let mut places = finder.points()?;
     places.extend(finder.named()?);
     places.extend(finder.pixels()?);
-    if let Some(Pair([columns, rows])) = args.grid {
-        places.extend(finder.grid(columns, rows)?);
+    if let Some(grid) = args.grid {
+        places.extend(finder.grid(grid)?);
     }
     if places.is_empty() {
         places = finder.defaults()?;
@@ -34,7 +37,8 @@ pub fn places(world: &World, args: &ReceiverArgs, camera: &CameraArgs, quantity:
 pub fn camera(world: &World, args: &CameraArgs) -> Result<Camera> {
     if let Some([ex, ey, ez, tx, ty, tz, fov]) = args.view {
         let (eye, target) = (DVec3::new(ex, ey, ez), DVec3::new(tx, ty, tz));
-        return viewpoint::look_at("view", eye, target, fov.to_radians()).context("the view has no direction");
+        return viewpoint::look_at("view", eye, target, fov.to_radians())
+            .context("--view has no direction: bring its two points nearer to the origin");
     }
     let cameras = &world.scene.cameras;
     match args.camera.as_deref() {
@@ -42,20 +46,22 @@ pub fn camera(world: &World, args: &CameraArgs) -> Result<Camera> {
         Some(name) => {
             let by_number = name.parse::<usize>().ok().and_then(|index| cameras.get(index));
             let camera = cameras.iter().find(|camera| camera.name == name).or(by_number);
-            camera.cloned().ok_or_else(|| no_such("camera", name, cameras.iter().map(|c| c.name.as_str())))
+            let names: Vec<&str> = cameras.iter().map(|camera| camera.name.as_str()).collect();
+            camera.cloned().ok_or_else(|| no_such("camera", name, &names, CAMERAS))
         }
-        None => cameras
-            .first()
-            .cloned()
-            .context("the scene has no camera: pass --camera auto, or --view EX,EY,EZ,TX,TY,TZ,FOV"),
+        None => cameras.first().cloned().with_context(|| format!("the scene has no camera: pass {CAMERAS}")),
     }
 }
+
+/// What to pass where a camera is missing.
+const CAMERAS: &str = "--camera auto, or --view EX,EY,EZ,TX,TY,TZ,FOV";
 
 struct Finder<'a> {
     world: &'a World,
     args: &'a ReceiverArgs,
     camera: &'a CameraArgs,
     quantity: QuantityArg,
+    note: &'a dyn Fn(&str),
 }
 
 impl Finder<'_> {
@@ -64,7 +70,7 @@ impl Finder<'_> {
         for at in &self.args.at {
             match at {
                 At::Point(position, normal) => points.push((*position, *normal)),
-                At::File(path) => points.extend(read_points(path)?),
+                At::File(path) => points.extend(points::read(path)?),
             }
         }
         points.into_iter().map(|(position, normal)| self.point(position, normal)).collect()
@@ -72,7 +78,7 @@ impl Finder<'_> {
 
     fn point(&self, position: DVec3, normal: DVec3) -> Result<Place> {
         let [x, y, z] = position.to_array();
-        let name = format!("at {x},{y},{z}");
+        let name = format!("point {},{},{}", short(x), short(y), short(z));
         let quantity = self.quantity_at(position, normal, &name)?;
         Ok(Place { name, position, normal, quantity, known: None })
     }
@@ -85,7 +91,8 @@ impl Finder<'_> {
             let before = named.len();
             named.extend(found.map(Place::of_receiver));
             if named.len() == before {
-                return Err(no_such("receiver", name, receivers.iter().map(|r| r.name.as_str())));
+                let names: Vec<&str> = receivers.iter().map(|receiver| receiver.name.as_str()).collect();
+                return Err(no_such("receiver", name, &names, "--at X,Y,Z,NX,NY,NZ"));
             }
         }
         self.with_quantity(named)
@@ -109,30 +116,27 @@ impl Finder<'_> {
                 bail!("pixel {x},{y} lies outside the image of {width} × {height} pixels: see --width and --height");
             }
             let place = self.seen(&camera, [f64::from(*x) + 0.5, f64::from(*y) + 0.5], [width, height]);
-            place.with_context(|| format!("pixel {x},{y} sees nothing of the scene"))
+            place.with_context(|| {
+                format!("pixel {x},{y} sees nothing of the scene: choose another, or another --camera or --view")
+            })
         });
         seen.collect()
     }
 
-    fn grid(&self, columns: u32, rows: u32) -> Result<Vec<Place>> {
-        if columns == 0 || rows == 0 {
-            bail!("a grid of {columns} × {rows} has no cell: pass --grid W,H with both above zero");
-        }
+    fn grid(&self, Pair([columns, rows]): Pair) -> Result<Vec<Place>> {
         let camera = camera(self.world, self.camera)?;
         let size @ [width, height] = self.camera.size(camera.aspect);
         let centre = |k: u32, count: u32, pixels: u32| (f64::from(k) + 0.5) / f64::from(count) * f64::from(pixels);
         let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
         let seen = |(i, j)| self.seen(&camera, [centre(i, columns, width), centre(j, rows, height)], size);
         let places: Vec<Place> = cells.filter_map(seen).collect();
-        let missed = u64::from(columns) * u64::from(rows) - places.len() as u64;
+        let all = columns as usize * rows as usize;
+        let missed = all - places.len();
         if places.is_empty() {
             bail!("camera \"{}\" sees nothing of the scene: choose another with --camera or --view", camera.name);
         }
         if missed > 0 {
-            eprintln!(
-                "note: {missed} of {} grid points see nothing and are left out",
-                u64::from(columns) * u64::from(rows)
-            );
+            (self.note)(&format!("note: {missed} of {all} grid points see nothing and are left out"));
         }
         Ok(places)
     }
@@ -142,9 +146,12 @@ impl Finder<'_> {
         if !receivers.is_empty() {
             return self.with_quantity(receivers.iter().map(Place::of_receiver).collect());
         }
-        self.grid(DEFAULT_GRID, DEFAULT_GRID).context(
-            "there is nothing to measure at: the scene names no receivers; pass --at X,Y,Z,NX,NY,NZ, or a camera for a grid",
-        )
+        if self.world.scene.cameras.is_empty() && self.camera.camera.is_none() && self.camera.view.is_none() {
+            bail!(
+                "the scene has neither receivers nor a camera to find some through: pass --at X,Y,Z,NX,NY,NZ, or {CAMERAS}"
+            );
+        }
+        self.grid(Pair([DEFAULT_GRID; 2]))
     }
 
     /// What the camera sees at a point of the image, in pixels.
@@ -175,29 +182,20 @@ impl Finder<'_> {
     }
 }
 
-fn read_points(path: &Path) -> Result<Vec<(DVec3, DVec3)>> {
-    let text = fs::read_to_string(path).with_context(|| format!("{} can't be read", path.display()))?;
-    let lines = (1..).zip(text.lines().map(str::trim)).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let header = |(number, line): &(usize, &str)| *number == 1 && line.starts_with(|c: char| c.is_alphabetic());
-    let point = |(number, line)| {
-        crate::args::point(line).map_err(|fault| anyhow!("{}, line {number}: {fault}", path.display()))
-    };
-    let points = lines.filter(|line| !header(line)).map(point).collect::<Result<Vec<_>>>()?;
-    if points.is_empty() {
-        bail!("{} holds no receiver: write a line x,y,z,nx,ny,nz for each", path.display());
-    }
-    Ok(points)
+/// A coordinate as one would type it.
+fn short(coordinate: f64) -> String {
+    let text = format!("{coordinate:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Nothing has this name; the nearest that there is.
-fn no_such<'a>(what: &str, name: &str, there_are: impl Iterator<Item = &'a str> + Clone) -> anyhow::Error {
-    let likeness = |other: &&str| strsim::jaro_winkler(other, name);
-    let nearest = there_are.clone().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    let all: Vec<&str> = there_are.collect();
-    match nearest {
+/// Nothing has this name: the nearest that there is, or else what to pass.
+fn no_such(what: &str, name: &str, names: &[&str], otherwise: &str) -> anyhow::Error {
+    let likeness = |other: &&&str| strsim::jaro_winkler(other, name);
+    match names.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
         Some(nearest) => {
-            anyhow!("the scene has no {what} \"{name}\"; did you mean \"{nearest}\"? (all: {})", all.join(", "))
+            let all = names.join(", ");
+            anyhow!("the scene has no {what} \"{name}\"; did you mean \"{nearest}\"? (all: {all})")
         }
-        None => anyhow!("the scene has no {what} \"{name}\", nor any other"),
+        None => anyhow!("the scene has no {what} \"{name}\", nor any other: pass {otherwise}"),
     }
 }

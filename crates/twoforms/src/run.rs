@@ -10,21 +10,29 @@ use twoforms_report::provenance::{platform, rfc3339_utc};
 use twoforms_scene::Scene;
 
 use crate::args::RunArgs;
+use crate::output::{self, counted};
 
 /// Loads a scene with at least one light, and says on standard error what was read otherwise than the file means it.
 pub fn load(path: &Path, run: &RunArgs) -> Result<World> {
     let scene = Scene::load(path)?;
-    if !run.quiet {
-        for warning in &scene.warnings {
-            eprintln!("warning: {warning}");
-        }
+    for warning in &scene.warnings {
+        note(run, &format!("warning: {warning}"));
     }
     let world = World::new(scene)?;
     if run.verbose > 0 {
-        let (triangles, lights) = (world.geometry.mesh().len(), world.scene.lights.len());
-        eprintln!("{}: {triangles} triangles, {lights} lights, {} targets", path.display(), world.lights.targets());
+        let triangles = counted(world.geometry.mesh().len(), "triangle");
+        let lights = counted(world.scene.lights.len(), "light");
+        let targets = counted(world.lights.targets(), "target");
+        note(run, &format!("{}: {triangles}, {lights}, {targets}", path.display()));
     }
     Ok(world)
+}
+
+/// Says a line on standard error, unless that is to be quiet.
+pub fn note(run: &RunArgs, line: &str) {
+    if !run.quiet {
+        output::say(line);
+    }
 }
 
 /// Sets the number of threads, once, before anything runs on them.
@@ -37,7 +45,7 @@ pub fn set_threads(run: &RunArgs) -> Result<()> {
 pub fn provenance(scene: &Scene, run: &RunArgs, started: SystemTime) -> Provenance {
     Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        command: std::env::args().map(|word| quoted(&word)).collect::<Vec<_>>().join(" "),
+        command: std::env::args_os().map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" "),
         seed: run.seed.to_string(),
         scene: scene.path.display().to_string(),
         scene_sha256: scene.sha256.clone(),

@@ -1,38 +1,49 @@
 //! The exact interval of a probability.
 
-/// Half the level that a 95 % interval leaves outside.
-const TAIL: f64 = 0.025;
-
-/// 95 % interval of the probability p after `hits` k of `samples` n independent trials (Clopper and Pearson 1934).
+/// Interval of the probability p after `hits` k of `samples` n independent trials (Clopper and Pearson 1934), which leaves
+/// out the true p with probability `level` at most: 0.05 for a 95 % interval.
 ///
-/// The lower end solves Pr(X ≥ k; n, p) = 0.025, the upper one Pr(X ≤ k; n, p) = 0.025; 0 at k = 0 and 1 at k = n. Its
-/// coverage is at least 95 % for every p and n. Needs k ≤ n.
-pub fn clopper_pearson(hits: u64, samples: u64) -> [f64; 2] {
-    [lower_end(hits, samples), 1.0 - lower_end(samples - hits, samples)]
+/// The lower end solves Pr(X ≥ k; n, p) = level/2, the upper one Pr(X ≤ k; n, p) = level/2; 0 at k = 0 and 1 at k = n.
+/// Needs k ≤ n.
+pub fn clopper_pearson(hits: u64, samples: u64, level: f64) -> [f64; 2] {
+    [lower_end(hits, samples, level), 1.0 - lower_end(samples - hits, samples, level)]
 }
 
-/// The p with Pr(X ≥ k; n, p) = 0.025, by Newton's method for ln Pr as a function of ln p.
+/// Two-sided probability of a count as far out as k under p: twice the smaller tail, at most 1. It is below a level
+/// exactly where [`clopper_pearson`] at that level leaves p out.
+pub fn binomial_p_value(hits: u64, samples: u64, p: f64) -> f64 {
+    let (k, n) = (hits as f64, samples as f64);
+    let at_least = if hits == 0 { 1.0 } else { libm::exp(ln_at_least(k, n, libm::log(p))) };
+    let at_most = if hits == samples { 1.0 } else { libm::exp(ln_at_least(n - k, n, libm::log1p(-p))) };
+    (2.0 * at_least.min(at_most)).min(1.0)
+}
+
+/// The p with Pr(X ≥ k; n, p) = level/2, by Newton's method for ln Pr as a function of ln p.
 ///
 /// That function rises and is concave, because the logarithm of a beta variate with b = n − k + 1 ≥ 1 has a log-concave
 /// density; so from the second step on Newton's method climbs to the root and cannot pass it.
-fn lower_end(hits: u64, samples: u64) -> f64 {
+fn lower_end(hits: u64, samples: u64, level: f64) -> f64 {
     if hits == 0 {
         return 0.0;
     }
     let (k, n) = (hits as f64, samples as f64);
-    let ln_choose = libm::lgamma(n + 1.0) - libm::lgamma(k + 1.0) - libm::lgamma(n - k + 1.0);
+    let ln_tail = libm::log(0.5 * level);
     let mut ln_p = libm::log(k / (n + 1.0));
     for _ in 0..MAX_STEPS {
-        let p = libm::exp(ln_p);
-        let sum = tail_over_first(k, n, p);
-        let ln_tail = ln_choose + k * ln_p + (n - k) * libm::log1p(-p) + libm::log(sum);
-        let step = (libm::log(TAIL) - ln_tail) * sum / k;
+        let step = (ln_tail - ln_at_least(k, n, ln_p)) * tail_over_first(k, n, libm::exp(ln_p)) / k;
         ln_p += step;
         if step.abs() < 1e-14 {
             break;
         }
     }
     libm::exp(ln_p)
+}
+
+/// ln Pr(X ≥ k; n, p), k > 0.
+fn ln_at_least(k: f64, n: f64, ln_p: f64) -> f64 {
+    let ln_choose = libm::lgamma(n + 1.0) - libm::lgamma(k + 1.0) - libm::lgamma(n - k + 1.0);
+    let p = libm::exp(ln_p);
+    ln_choose + k * ln_p + (n - k) * libm::log1p(-p) + libm::log(tail_over_first(k, n, p))
 }
 
 /// Newton's steps double the digits; six or seven are usual.
@@ -55,6 +66,8 @@ fn tail_over_first(k: f64, n: f64, p: f64) -> f64 {
 mod tests {
     use super::*;
 
+    const TAIL: f64 = 0.025;
+
     fn close(found: [f64; 2], expected: [f64; 2], tolerance: f64) {
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() <= tolerance * expected, "{found} {expected}");
@@ -65,8 +78,8 @@ mod tests {
     fn ends_have_closed_forms() {
         for n in [1_u64, 30, 1000, 1_024_000] {
             let rest = libm::pow(TAIL, 1.0 / n as f64);
-            close(clopper_pearson(n, n), [rest, 1.0], 1e-12);
-            close(clopper_pearson(0, n), [0.0, 1.0 - rest], 1e-8);
+            close(clopper_pearson(n, n, 0.05), [rest, 1.0], 1e-12);
+            close(clopper_pearson(0, n, 0.05), [0.0, 1.0 - rest], 1e-8);
         }
     }
 
@@ -74,7 +87,7 @@ mod tests {
     #[test]
     fn tails_hold_the_level() {
         for (k, n) in [(1_u32, 10_u32), (5, 10), (37, 100), (999, 1000), (500, 1000)] {
-            let [lo, hi] = clopper_pearson(k.into(), n.into());
+            let [lo, hi] = clopper_pearson(k.into(), n.into(), 0.05);
             let at_least: f64 = (k..=n).map(|j| probability(j, n, lo)).sum();
             let at_most: f64 = (0..=k).map(|j| probability(j, n, hi)).sum();
             assert!((at_least / TAIL - 1.0).abs() < 1e-9, "{k} {n}: {at_least}");
@@ -93,7 +106,7 @@ mod tests {
         for (k, n) in [(409_600_u64, 1_024_000_u64), (2_000_000, 4_096_000), (1000, 4_000_000)] {
             let p = k as f64 / n as f64;
             let half = crate::statistics::Z_95 * (p * (1.0 - p) / n as f64).sqrt();
-            let [lo, hi] = clopper_pearson(k, n);
+            let [lo, hi] = clopper_pearson(k, n, 0.05);
             assert!(((hi - lo) / (2.0 * half) - 1.0).abs() < 0.01, "{k} {n}");
             assert!(lo < p && p < hi);
         }
@@ -103,7 +116,7 @@ mod tests {
     #[test]
     fn coverage_is_at_least_95_percent() {
         let n = 60_u32;
-        let ends: Vec<[f64; 2]> = (0..=n).map(|k| clopper_pearson(k.into(), n.into())).collect();
+        let ends: Vec<[f64; 2]> = (0..=n).map(|k| clopper_pearson(k.into(), n.into(), 0.05)).collect();
         for p in (1..200).map(|i| f64::from(i) / 200.0) {
             let kept = |k: &u32| ends[*k as usize][0] <= p && p <= ends[*k as usize][1];
             let coverage: f64 = (0..=n).filter(kept).map(|k| probability(k, n, p)).sum();

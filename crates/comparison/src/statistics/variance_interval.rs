@@ -46,7 +46,8 @@ impl TwoValued {
             _ if hits == 0 || hits == samples => Err(Reason::AllEqual),
             _ => {
                 let n = samples as f64 / replicates as f64;
-                Ok(bernoulli_variance(clopper_pearson(hits, samples)).map(|variance| variance * value * value / n))
+                Ok(bernoulli_variance(clopper_pearson(hits, samples, 0.05))
+                    .map(|variance| variance * value * value / n))
             }
         }
     }
@@ -73,7 +74,7 @@ mod tests {
     #[test]
     fn two_values_scale_with_value_and_samples() {
         let of = |value, samples| variance_interval(&[0.0; 100], Some(TwoValued { value, hits: 50, samples }));
-        let [lo, hi] = bernoulli_variance(clopper_pearson(50, 1600));
+        let [lo, hi] = bernoulli_variance(clopper_pearson(50, 1600, 0.05));
         assert_eq!(of(2.0, 1600), Ok([lo * 4.0 / 16.0, hi * 4.0 / 16.0]));
     }
 

@@ -6,8 +6,8 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use twoforms_exact::Strategy;
-use twoforms_exact::value::luminance;
+use twoforms_estimator::rgb::luminance;
+use twoforms_estimator::strategy::Strategy;
 
 use crate::support::{Frame, Lamp, Random, Scene, Triangle, area, cross, holds};
 

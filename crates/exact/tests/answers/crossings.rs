@@ -1,7 +1,8 @@
 //! Where two strategies are equally good.
 
 use glam::DVec3;
-use twoforms_exact::{Sight, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_exact::Sight;
 
 use crate::support::{Scene, ceiling, lamp};
 use crate::view_factors::polygon;

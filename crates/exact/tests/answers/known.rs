@@ -1,7 +1,8 @@
 //! Scenes whose irradiance and variances were computed by other methods.
 
 use serde_json::Value as Json;
-use twoforms_exact::{Sight, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_exact::Sight;
 
 use crate::file::{self, numbers};
 

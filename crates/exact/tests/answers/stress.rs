@@ -2,7 +2,8 @@
 //! light's plane.
 
 use serde_json::Value as Json;
-use twoforms_exact::{Sight, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_exact::Sight;
 
 use crate::file;
 

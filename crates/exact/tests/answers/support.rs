@@ -105,7 +105,7 @@ impl Lamp {
     fn light(&self) -> Light {
         let area = self.triangles.iter().map(area).sum();
         let sides = if self.two_sided { 2.0 } else { 1.0 };
-        Light { area, power: area * sides * twoforms_exact::value::luminance(self.radiance) }
+        Light { area, power: area * sides * twoforms_estimator::rgb::luminance(self.radiance) }
     }
 }
 

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use twoforms_estimator::strategy::Strategy;
 use twoforms_exact::gauss::legendre;
-use twoforms_exact::{Facing, Light, Sight, Strategy};
+use twoforms_exact::{Facing, Light, Sight};
 
 use crate::support::{Lamp, Scene, ceiling, lamp, parallelogram};
 

@@ -112,6 +112,11 @@ impl Wide {
         self.depth > 0.0
     }
 
+    /// Whether light can come from it: x on a side that emits, and some of the target above x's horizon.
+    pub(crate) fn lit(&self) -> bool {
+        self.faces_x() && self.corners().iter().any(|corner| corner.z > 0.0)
+    }
+
     /// Distance of x from the plane.
     pub(crate) fn plane_distance(&self) -> f64 {
         self.toward.dot(self.corners[0])

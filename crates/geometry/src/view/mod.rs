@@ -7,6 +7,8 @@
 
 mod cone;
 mod facet;
+mod prospect;
+mod pyramid;
 mod sight;
 
 use glam::DVec3;
@@ -22,6 +24,7 @@ use crate::vector::{Direction, Vector};
 pub use cone::Cone;
 pub use facet::Facet;
 use facet::Wide;
+pub use prospect::Prospect;
 pub use sight::{Between, Sight};
 
 /// Most targets that a view looks at one by one; beyond, rays find them.

@@ -2,6 +2,8 @@
 
 use clap::Args;
 
+use super::whole::between;
+
 /// Which camera looks, and how large its image is.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Camera")]
@@ -13,10 +15,10 @@ pub struct CameraArgs {
     #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ,FOV", allow_hyphen_values = true, value_parser = view)]
     pub view: Option<[f64; 7]>,
     /// Width of the image in pixels [default: from the height and the camera's aspect]
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = between::<u32>(1, 65536))]
     pub width: Option<u32>,
     /// Height of the image in pixels; the camera's vertical field of view is kept [default: 512]
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = between::<u32>(1, 65536))]
     pub height: Option<u32>,
 }
 

@@ -3,11 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
-use twoforms_estimator::sampler::{Sampler, UnknownSampler};
-use twoforms_estimator::strategy::{Strategy, UnknownStrategy};
+use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::strategy::Strategy;
 
 /// Strategies, in the order given, each once.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StrategyList(pub Vec<Strategy>);
 
 /// Samplers, in the order given, each once.
@@ -21,18 +21,18 @@ impl Default for StrategyList {
 }
 
 impl FromStr for StrategyList {
-    type Err = UnknownStrategy;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, UnknownStrategy> {
-        names(text).into_iter().map(str::parse).collect::<Result<Vec<_>, _>>().map(once).map(Self)
+    fn from_str(text: &str) -> Result<Self, String> {
+        parsed(text).map(Self)
     }
 }
 
 impl FromStr for SamplerList {
-    type Err = UnknownSampler;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, UnknownSampler> {
-        names(text).into_iter().map(str::parse).collect::<Result<Vec<_>, _>>().map(once).map(Self)
+    fn from_str(text: &str) -> Result<Self, String> {
+        parsed(text).map(Self)
     }
 }
 
@@ -52,8 +52,17 @@ fn joined(names: &[impl ToString]) -> String {
     names.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
 }
 
+/// What the names in a list stand for, each once.
+fn parsed<T: Copy + PartialEq + FromStr<Err: fmt::Display>>(text: &str) -> Result<Vec<T>, String> {
+    let one = |name: &str| match name {
+        "" => Err("has an empty name: put one comma between names, and none at the ends".to_owned()),
+        _ => name.parse().map_err(|error: T::Err| error.to_string()),
+    };
+    names(text).into_iter().map(one).collect::<Result<Vec<T>, String>>().map(|items| once(&items))
+}
+
 /// Drops repetitions.
-fn once<T: Copy + PartialEq>(items: Vec<T>) -> Vec<T> {
+pub fn once<T: Copy + PartialEq>(items: &[T]) -> Vec<T> {
     items.iter().enumerate().filter(|(k, item)| !items[..*k].contains(item)).map(|(_, item)| *item).collect()
 }
 
@@ -80,5 +89,12 @@ mod tests {
     fn a_strategy_named_twice_is_compared_once() {
         let list: Result<StrategyList, _> = "area/uniform,area/uniform".parse();
         assert_eq!(list.map(|list| list.0.len()), Ok(1));
+    }
+
+    #[test]
+    fn an_empty_name_is_refused_as_such() {
+        for text in ["", ",", "area/uniform,", ",area/uniform"] {
+            assert!(text.parse::<StrategyList>().is_err_and(|error| error.contains("empty name")), "{text:?}");
+        }
     }
 }

@@ -1,18 +1,23 @@
 //! The command line's words.
 
 mod camera;
+mod help;
 mod list;
 mod receivers;
+mod whole;
 
 use std::path::PathBuf;
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{ArgAction, Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use twoforms_estimator::sampler::Sampler;
 
 pub use camera::{CameraArgs, ImageSize};
-pub use list::{SamplerList, StrategyList};
+pub use list::{SamplerList, StrategyList, once};
 pub use receivers::{At, Pair, ReceiverArgs, point};
+
+use whole::between;
 
 /// Compares the two forms of the rendering equation for direct light.
 ///
@@ -20,7 +25,7 @@ pub use receivers::{At, Pair, ReceiverArgs, point};
 /// y = vp(x, Ψ), or over the points y of the lights, where V(x, y) says whether they see each other. Both give the same
 /// number; as Monte Carlo estimators they differ in variance. twoforms measures by how much.
 #[derive(Debug, Parser)]
-#[command(name = "twoforms", version, max_term_width = 110)]
+#[command(name = "twoforms", version, max_term_width = 110, after_help = help::ALL)]
 pub struct Args {
     /// What to do.
     #[command(subcommand)]
@@ -32,11 +37,14 @@ pub struct Args {
 pub enum Command {
     /// Variance per sample count, by both formulations, beside the known value
     Compare(CompareArgs),
+    /// Irradiance and the variance of every strategy, with no randomness at all
+    Exact(ExactArgs),
     /// An image by one strategy, to EXR with a PNG preview beside it
     Render(RenderArgs),
     /// Lights, triangles, cameras, receivers and warnings of a scene
     Inspect(InspectArgs),
     /// Prints a completion script for a shell
+    #[command(after_help = help::COMPLETIONS)]
     Completions {
         /// The shell
         shell: Shell,
@@ -45,18 +53,25 @@ pub enum Command {
 
 /// What every command that computes takes.
 #[derive(Debug, ClapArgs)]
+#[command(next_help_heading = "Run")]
 pub struct RunArgs {
     /// Seed: equal seeds give equal results, on any number of threads
-    #[arg(long, default_value_t = 0)]
+    #[arg(
+        long, default_value_t = 0, value_name = "N", allow_negative_numbers = true,
+        value_parser = between::<u64>(0, u64::MAX)
+    )]
     pub seed: u64,
     /// Threads [default: one per core]
-    #[arg(short, long, alias = "nthreads", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(
+        short, long, alias = "nthreads", value_name = "N", allow_negative_numbers = true,
+        value_parser = between::<u16>(1, 1024)
+    )]
     pub threads: Option<u16>,
-    /// No progress and no warnings
+    /// No progress, no warnings, no notes
     #[arg(short, long)]
     pub quiet: bool,
     /// Say more on standard error
-    #[arg(short, long, action = ArgAction::Count)]
+    #[arg(short, long, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
 }
 
@@ -67,6 +82,16 @@ pub enum QuantityArg {
     Irradiance,
     /// Toward the eye, from a Lambertian surface, with its own emission
     Radiance,
+}
+
+impl QuantityArg {
+    /// The word on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Irradiance => "irradiance",
+            Self::Radiance => "radiance",
+        }
+    }
 }
 
 /// How results are printed.
@@ -80,9 +105,66 @@ pub enum Format {
     Csv,
 }
 
+/// Where the light is measured, and what is asked of it.
+#[derive(Debug, ClapArgs)]
+pub struct PlacesArgs {
+    /// What is asked of the light
+    #[arg(long, value_enum, default_value_t = QuantityArg::Irradiance)]
+    pub quantity: QuantityArg,
+    /// The receivers.
+    #[command(flatten)]
+    pub receivers: ReceiverArgs,
+    /// The camera for receivers given by pixels.
+    #[command(flatten)]
+    pub camera: CameraArgs,
+}
+
+/// When a bias is found.
+#[derive(Debug, ClapArgs)]
+#[command(next_help_heading = "Verdicts")]
+pub struct CriteriaArgs {
+    /// Chance of any false alarm in a run
+    #[arg(long, default_value_t = 0.01, value_name = "P", allow_negative_numbers = true, value_parser = share)]
+    pub level: f64,
+    /// The bias that still counts as none, as a share of the exact value
+    #[arg(long, default_value_t = 0.01, value_name = "SHARE", allow_negative_numbers = true, value_parser = share)]
+    pub margin: f64,
+    /// Exit with 3 if an estimator is found to be biased
+    #[arg(long)]
+    pub check: bool,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|value| 0.0 < *value && *value < 1.0);
+    value.ok_or_else(|| "needs a number between 0 and 1, such as 0.01".to_owned())
+}
+
+/// `exact`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = help::EXACT)]
+pub struct ExactArgs {
+    /// A glTF scene (.gltf or .glb)
+    pub scene: PathBuf,
+    /// Strategies, separated by commas [default: all with an exact variance]
+    #[arg(long, alias = "strategy", value_name = "LIST")]
+    pub strategies: Option<StrategyList>,
+    /// Where, and what is asked there.
+    #[command(flatten)]
+    pub places: PlacesArgs,
+    /// How to run.
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// How to print results on standard output
+    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
+    pub format: Format,
+    /// Write what would be printed to this file instead
+    #[arg(short, long, alias = "outfile", value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
 /// `compare`.
 #[derive(Debug, ClapArgs)]
-#[command(after_help = COMPARE_EXAMPLES)]
+#[command(after_help = help::COMPARE, after_long_help = help::with_strategies(help::COMPARE))]
 pub struct CompareArgs {
     /// A glTF scene (.gltf or .glb)
     pub scene: PathBuf,
@@ -95,45 +177,38 @@ pub struct CompareArgs {
     /// Sample counts N, separated by commas
     #[arg(
         long, value_delimiter = ',', default_value = "1,4,16,64,256,1024", value_name = "N,N,…",
-        value_parser = clap::value_parser!(u32).range(1..)
+        allow_negative_numbers = true, value_parser = between::<u32>(1, u64::from(u32::MAX))
     )]
     pub samples: Vec<u32>,
     /// Independent replicates of each estimate, over which variances are measured
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long, default_value_t = 1000, value_name = "R", allow_negative_numbers = true,
+        value_parser = between::<u32>(1, u64::from(u32::MAX))
+    )]
     pub replicates: u32,
-    /// What is asked of the light
-    #[arg(long, value_enum, default_value_t = QuantityArg::Irradiance)]
-    pub quantity: QuantityArg,
-    /// Where the light is measured.
+    /// Where, and what is asked there.
     #[command(flatten)]
-    pub receivers: ReceiverArgs,
-    /// The camera for receivers given by pixels.
+    pub places: PlacesArgs,
+    /// When a bias is found.
     #[command(flatten)]
-    pub camera: CameraArgs,
+    pub criteria: CriteriaArgs,
     /// How to run.
     #[command(flatten)]
     pub run: RunArgs,
     /// How to print results on standard output
-    #[arg(long, value_enum, default_value_t = Format::Table)]
+    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
     pub format: Format,
     /// Write what would be printed to this file instead
-    #[arg(short, long, alias = "outfile", value_name = "FILE")]
+    #[arg(short, long, alias = "outfile", value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
     /// Also write compare.json and compare.csv into this folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,
 }
 
-const COMPARE_EXAMPLES: &str = "\
-Examples:
-  twoforms compare scenes/cornell-box.gltf
-  twoforms compare scenes/two-lights.gltf --strategies area/uniform,area/uniform@power --samples 16
-  twoforms compare scenes/cornell-box.gltf --at 0.2,0,0.1,0,1,0 --format json
-  twoforms compare room.glb --camera auto --grid 16,16 --out results";
-
 /// `render`.
 #[derive(Debug, ClapArgs)]
-#[command(after_help = RENDER_EXAMPLES)]
+#[command(after_help = help::RENDER, after_long_help = help::with_strategies(help::RENDER))]
 pub struct RenderArgs {
     /// A glTF scene (.gltf or .glb)
     pub scene: PathBuf,
@@ -144,16 +219,22 @@ pub struct RenderArgs {
     #[arg(long, alias = "samplers", default_value = "independent", value_name = "NAME")]
     pub sampler: Sampler,
     /// Camera samples per pixel
-    #[arg(long, alias = "samples", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long, alias = "samples", default_value_t = 64, value_name = "N", allow_negative_numbers = true,
+        value_parser = between::<u32>(1, MOST_IN_EXR)
+    )]
     pub spp: u32,
     /// Light samples per camera sample
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long, default_value_t = 1, value_name = "N", allow_negative_numbers = true,
+        value_parser = between::<u32>(1, u64::from(u32::MAX))
+    )]
     pub light_samples: u32,
     /// Part of the image to render, as fractions from the top left
-    #[arg(long, alias = "cropwindow", value_name = "X0,X1,Y0,Y1", value_parser = camera::crop)]
+    #[arg(long, alias = "cropwindow", value_name = "X0,X1,Y0,Y1", allow_hyphen_values = true, value_parser = camera::crop)]
     pub crop: Option<camera::CropWindow>,
     /// Where in a pixel its camera samples lie
-    #[arg(long, value_enum, default_value_t = FilterArg::Box)]
+    #[arg(long, value_enum, default_value_t = FilterArg::Box, value_name = "FILTER")]
     pub pixel_filter: FilterArg,
     /// What is asked of the light
     #[arg(long, value_enum, default_value_t = QuantityArg::Radiance)]
@@ -168,15 +249,21 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub run: RunArgs,
     /// The EXR file; a PNG preview of the same name goes beside it [default: the scene's name in this folder]
-    #[arg(short, long, alias = "outfile", value_name = "FILE")]
+    #[arg(
+        short, long, alias = "outfile", value_name = "FILE", help_heading = "Output",
+        value_parser = PathBufValueParser::new().try_map(exr_file)
+    )]
     pub output: Option<PathBuf>,
 }
 
-const RENDER_EXAMPLES: &str = "\
-Examples:
-  twoforms render scenes/cornell-box.gltf -o cornell.exr
-  twoforms render scenes/cornell-box.gltf --strategy hemisphere/cosine --spp 256 --width 256 --height 256
-  twoforms render room.glb --view 3,2,5,0,1,0,40 --spp 16 --light-samples 16";
+/// The largest number that an attribute of an EXR file holds.
+const MOST_IN_EXR: u64 = i32::MAX as u64;
+
+/// The path of an EXR file.
+fn exr_file(path: PathBuf) -> Result<PathBuf, &'static str> {
+    let is_exr = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+    if is_exr { Ok(path) } else { Err("needs a name that ends in .exr; a PNG preview goes beside it by itself") }
+}
 
 /// Where in a pixel its camera samples lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -189,10 +276,11 @@ pub enum FilterArg {
 
 /// `inspect`.
 #[derive(Debug, ClapArgs)]
+#[command(after_help = help::INSPECT)]
 pub struct InspectArgs {
     /// A glTF scene (.gltf or .glb)
     pub scene: PathBuf,
-    /// Print one JSON document instead of text
+    /// How to print it on standard output
     #[arg(long, value_enum, default_value_t = InspectFormat::Table)]
     pub format: InspectFormat,
 }

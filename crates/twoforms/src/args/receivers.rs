@@ -18,13 +18,13 @@ pub struct ReceiverArgs {
     #[arg(long, value_name = "NAME")]
     pub receiver: Vec<String>,
     /// What the centre of a pixel sees; 0,0 is top left (repeatable)
-    #[arg(long, value_name = "X,Y")]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub pixel: Vec<Pair>,
     /// What the centres of a grid of cells over the camera's image see
-    #[arg(long, value_name = "W,H")]
+    #[arg(long, value_name = "W,H", allow_hyphen_values = true, value_parser = grid)]
     pub grid: Option<Pair>,
     /// Albedo for radiance where no surface lies under a receiver: one number, or r,g,b
-    #[arg(long, value_name = "RHO")]
+    #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
     pub albedo: Option<Colour>,
 }
 
@@ -42,6 +42,7 @@ impl FromStr for At {
 
     fn from_str(text: &str) -> Result<Self, String> {
         match text.strip_prefix('@') {
+            Some("") => Err("names no file; the form is @FILE.csv".into()),
             Some(path) => Ok(Self::File(path.into())),
             None => point(text).map(|(position, normal)| Self::Point(position, normal)),
         }
@@ -70,6 +71,16 @@ impl FromStr for Pair {
     }
 }
 
+/// Cells of the largest grid: each is a receiver with all its rows in memory.
+const MOST_CELLS: u64 = 1 << 20;
+
+fn grid(text: &str) -> Result<Pair, String> {
+    let grid @ Pair([columns, rows]) = text.parse()?;
+    let cells = u64::from(columns) * u64::from(rows);
+    let within = (1..=MOST_CELLS).contains(&cells);
+    if within { Ok(grid) } else { Err(format!("has {cells} cells; a grid has 1 to {MOST_CELLS}")) }
+}
+
 /// Linear RGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colour(pub [f32; 3]);
@@ -80,7 +91,7 @@ impl FromStr for Colour {
     fn from_str(text: &str) -> Result<Self, String> {
         let rgb = match text.parse::<f64>() {
             Ok(grey) => [grey; 3],
-            Err(_) => numbers(text, "r,g,b")?,
+            Err(_) => numbers(text, "one number, or r,g,b")?,
         };
         let valid = rgb.iter().all(|c| (0.0..=1.0).contains(c));
         if valid { Ok(Self(rgb.map(|c| c as f32))) } else { Err("an albedo lies between 0 and 1".into()) }
@@ -101,7 +112,7 @@ pub(super) fn numbers<const K: usize>(text: &str, form: &str) -> Result<[f64; K]
 
 #[cfg(test)]
 mod tests {
-    use super::{At, Colour, Pair, point};
+    use super::{At, Colour, Pair, grid, point};
     use glam::DVec3;
 
     #[test]
@@ -127,6 +138,8 @@ mod tests {
     fn pairs_and_colours() {
         assert_eq!("3, 4".parse(), Ok(Pair([3, 4])));
         assert!("3".parse::<Pair>().is_err() && "3,4,5".parse::<Pair>().is_err() && "-1,2".parse::<Pair>().is_err());
+        assert_eq!(grid("1024,1024"), Ok(Pair([1024, 1024])));
+        assert!(grid("0,3").is_err() && grid("1024,1025").is_err());
         assert_eq!("0.5".parse(), Ok(Colour([0.5; 3])));
         assert!("0.5,2,0".parse::<Colour>().is_err());
     }

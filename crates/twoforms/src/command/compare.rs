@@ -2,38 +2,65 @@
 
 use std::time::SystemTime;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use twoforms_comparison::experiment::Experiment;
+use twoforms_comparison::verdict::Criteria;
 use twoforms_report::Document;
 
-use crate::args::{CompareArgs, QuantityArg};
+use crate::args::{CompareArgs, once};
 use crate::output::Destination;
 use crate::{places, progress, run};
 
-/// Measures, and prints.
-pub fn run(args: &CompareArgs) -> Result<()> {
+/// Measures, and prints. `Found::Bias` where a check was asked for and an estimator is biased.
+pub fn run(args: &CompareArgs) -> Result<Found> {
     let started = SystemTime::now();
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
-    let places = places::places(&world, &args.receivers, &args.camera, args.quantity)?;
+    let places = places::places(&world, &args.places, &args.run)?;
     let destination = Destination::new(args.format, args.output.as_deref(), args.out.as_deref())?;
     let experiment = Experiment {
         strategies: args.strategies.0.clone(),
         samplers: args.sampler.0.clone(),
-        samples: args.samples.clone(),
+        samples: once(&args.samples),
         replicates: args.replicates,
         seed: args.run.seed,
+        criteria: Criteria { level: args.criteria.level, margin: args.criteria.margin },
     };
+    check_size(&experiment, places.len())?;
     let total = experiment.samples_per_receiver().saturating_mul(places.len() as u64);
     let bar = progress::bar(total, "samples", &args.run);
     let results = experiment.run(&world, &places, &|drawn| bar.inc(drawn))?;
     bar.finish_and_clear();
-    let quantity = match args.quantity {
-        QuantityArg::Irradiance => "irradiance",
-        QuantityArg::Radiance => "radiance",
-    };
     let provenance = run::provenance(&world.scene, &args.run, started)
         .with("replicates", u64::from(args.replicates))
-        .with("quantity", quantity);
-    destination.write(&Document::new(provenance, results)?)
+        .with("quantity", args.places.quantity.name());
+    let biased = results.iter().flat_map(|receiver| &receiver.verdicts).any(|verdict| verdict.verdict == "biased");
+    destination.write(&Document::new(provenance, results)?)?;
+    Ok(if args.criteria.check && biased { Found::Bias } else { Found::Nothing })
+}
+
+/// What a check found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// No check was asked for, or no estimator is biased.
+    Nothing,
+    /// An estimator is biased.
+    Bias,
+}
+
+/// Estimates that are kept until their variance is known, at eight bytes each: 4 GB.
+const MOST_ESTIMATES: u64 = 500_000_000;
+
+/// Refuses what memory would not hold, before it is begun.
+fn check_size(experiment: &Experiment, places: usize) -> Result<()> {
+    let rows = experiment.strategies.len() * experiment.samplers.len() * experiment.samples.len();
+    let kept = (rows * places) as u64;
+    let most = MOST_ESTIMATES / kept;
+    if u64::from(experiment.replicates) > most {
+        bail!(
+            "{} replicates of {kept} estimates are more than can be held at once: ask for at most {most} replicates",
+            experiment.replicates
+        );
+    }
+    Ok(())
 }

@@ -3,24 +3,25 @@
 use std::fmt::Write;
 
 use anyhow::{Context, Result};
+use glam::DVec3;
 use serde_json::{Value, json};
 use twoforms_comparison::viewpoint;
-use twoforms_geometry::target::Sides;
+use twoforms_geometry::target::{Sides, Target};
 use twoforms_scene::{Camera, Light, Scene};
 
 use crate::args::{InspectArgs, InspectFormat};
-use crate::output;
+use crate::output::{self, counted, plain};
 
 /// Prints the scene's contents.
 pub fn run(args: &InspectArgs) -> Result<()> {
     let scene = Scene::load(&args.scene)?;
-    match args.format {
-        InspectFormat::Table => output::print(&text(&scene)),
+    let text = match args.format {
+        InspectFormat::Table => text(&scene),
         InspectFormat::Json => {
-            let text = serde_json::to_string_pretty(&document(&scene)).context("the scene can't be written as JSON")?;
-            output::print(&(text + "\n"))
+            serde_json::to_string_pretty(&document(&scene)).context("the scene can't be written as JSON")? + "\n"
         }
-    }
+    };
+    Ok(output::print(&text)?)
 }
 
 fn document(scene: &Scene) -> Value {
@@ -53,7 +54,7 @@ fn document(scene: &Scene) -> Value {
         "scene_sha256": scene.sha256,
         "triangles": scene.mesh.len(),
         "surfaces": scene.surfaces.len(),
-        "emitter_triangles": scene.targets.iter().flat_map(|target| target.triangles()).count(),
+        "emitter_triangles": scene.targets.iter().flat_map(Target::triangles).count(),
         "targets": scene.targets.len(),
         "lights": scene.lights.iter().map(light).collect::<Vec<_>>(),
         "cameras": scene.cameras.iter().map(camera).collect::<Vec<_>>(),
@@ -75,48 +76,65 @@ const LIGHTS_LISTED: usize = 20;
 
 fn write_text(scene: &Scene, out: &mut String) -> std::fmt::Result {
     let emitting: usize = scene.targets.iter().map(|target| target.triangles().count()).sum();
-    writeln!(out, "{}", scene.path.display())?;
-    writeln!(out, "{} triangles in {} surfaces, {emitting} of them emit", scene.mesh.len(), scene.surfaces.len())?;
+    writeln!(out, "{}", plain(&scene.path.display().to_string()))?;
+    let (triangles, surfaces) = (counted(scene.mesh.len(), "triangle"), counted(scene.surfaces.len(), "surface"));
+    writeln!(out, "{triangles} in {surfaces}, {emitting} of them emitting")?;
     if let Some((low, high)) = scene.mesh.bounds() {
         writeln!(out, "from {low} to {high} m")?;
     }
-    writeln!(out, "\n{} lights, {} targets", scene.lights.len(), scene.targets.len())?;
+    writeln!(out, "\n{}, {}", counted(scene.lights.len(), "light"), counted(scene.targets.len(), "target"))?;
     for light in scene.lights.iter().take(LIGHTS_LISTED) {
         let [r, g, b] = light.radiance;
         let [pr, pg, pb] = light.power();
         writeln!(
             out,
-            "  {}: area {:.6} m², radiance ({r}, {g}, {b}), power ({pr:.4}, {pg:.4}, {pb:.4}), {}, {} targets",
-            light.name,
+            "  {}: area {:.6} m², radiance ({r}, {g}, {b}), power ({pr:.4}, {pg:.4}, {pb:.4}), {}, {}",
+            plain(&light.name),
             light.area,
             sides(light),
-            light.targets.len(),
+            counted(light.targets.len(), "target"),
         )?;
     }
     if scene.lights.len() > LIGHTS_LISTED {
         writeln!(out, "  … and {} more (all with --format json)", scene.lights.len() - LIGHTS_LISTED)?;
     }
     write_cameras(scene, out)?;
-    writeln!(out, "\n{} receivers", scene.receivers.len())?;
+    write_receivers(scene, out)?;
+    if !scene.warnings.is_empty() {
+        writeln!(out, "\n{}", counted(scene.warnings.len(), "warning"))?;
+    }
+    scene.warnings.iter().try_for_each(|warning| writeln!(out, "  {}", plain(warning)))
+}
+
+fn write_receivers(scene: &Scene, out: &mut String) -> std::fmt::Result {
+    writeln!(out, "\n{}", counted(scene.receivers.len(), "receiver"))?;
     for receiver in &scene.receivers {
-        writeln!(out, "  {}: at {}, normal {}", receiver.name, receiver.position, receiver.normal)?;
+        let (position, normal) = (receiver.position + DVec3::ZERO, receiver.normal + DVec3::ZERO);
+        writeln!(out, "  {}: at {position}, normal {normal}", plain(&receiver.name))?;
         if let Some(known) = &receiver.known {
-            writeln!(out, "    known irradiance {:?}: {}", known.irradiance, known.derivation)?;
+            writeln!(out, "    known irradiance {:?}: {}", known.irradiance, plain(&known.derivation))?;
         }
     }
-    if !scene.warnings.is_empty() {
-        writeln!(out, "\n{} warnings", scene.warnings.len())?;
-    }
-    scene.warnings.iter().try_for_each(|warning| writeln!(out, "  {warning}"))
+    Ok(())
 }
 
 fn write_cameras(scene: &Scene, out: &mut String) -> std::fmt::Result {
     let line = |out: &mut String, camera: &Camera| {
-        let (from, toward) = (camera.position, camera.forward);
-        writeln!(out, "  {}: at {from:.3}, toward {toward:.3}, {:.2}° high", camera.name, camera.yfov.to_degrees())
+        let (from, toward) = (thousandths(camera.position), thousandths(camera.forward));
+        writeln!(
+            out,
+            "  {}: at {from:.3}, toward {toward:.3}, {:.2}° high",
+            plain(&camera.name),
+            camera.yfov.to_degrees()
+        )
     };
-    writeln!(out, "\n{} cameras, and auto", scene.cameras.len())?;
+    writeln!(out, "\n{}, and auto", counted(scene.cameras.len(), "camera"))?;
     scene.cameras.iter().chain(viewpoint::auto(&scene.mesh).as_ref()).try_for_each(|camera| line(out, camera))
+}
+
+/// Rounded to three places, and no zero with a sign.
+fn thousandths(v: DVec3) -> DVec3 {
+    (v * 1000.0).round() / 1000.0 + DVec3::ZERO
 }
 
 fn sides(light: &Light) -> &'static str {

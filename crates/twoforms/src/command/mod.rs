@@ -2,5 +2,6 @@
 
 pub mod compare;
 pub mod completions;
+pub mod exact;
 pub mod inspect;
 pub mod render;

@@ -1,10 +1,10 @@
 //! `twoforms render`: an image by one strategy.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
+use indicatif::HumanCount;
 use twoforms_comparison::image::{Centre, Crop, Pixel, PixelFilter, Rendering};
 use twoforms_report::exr::write_exr;
 use twoforms_report::png::write_png;
@@ -22,7 +22,11 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let camera = places::camera(&world, &args.camera)?;
     let rendering = rendering(args, args.camera.size(camera.aspect))?;
     let Crop { x0, x1, y0, y1 } = rendering.crop;
-    let bar = progress::bar(u64::from(x1 - x0) * u64::from(y1 - y0), "pixels", &args.run);
+    let count = u64::from(x1 - x0) * u64::from(y1 - y0);
+    if count > MOST_PIXELS {
+        bail!("{count} pixels are more than can be held at once: ask for at most {MOST_PIXELS}, or a --crop of them");
+    }
+    let bar = progress::bar(count, "pixels", &args.run);
     let clock = Instant::now();
     let pixels = rendering.run(&world, &camera, &|done| bar.inc(done))?;
     let seconds = clock.elapsed().as_secs_f64();
@@ -33,7 +37,8 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         .with("sampler", rendering.sampler.to_string().as_str())
         .with("spp", u64::from(rendering.spp))
         .with("light_samples", u64::from(rendering.light_samples))
-        .with("camera", camera.name.as_str());
+        .with("camera", camera.name.as_str())
+        .with("quantity", args.quantity.name());
     let image = Image {
         width: rendering.crop.width() as usize,
         height: rendering.crop.height() as usize,
@@ -44,16 +49,24 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     };
     write_exr(&paths.exr, &image)?;
     write_png(&paths.png, &image)?;
-    if !args.run.quiet {
-        let rays: u64 = pixels.iter().map(|pixel| pixel.rays).sum();
-        eprintln!(
-            "{} and {}: {seconds:.1} s, {:.1} million rays",
-            paths.exr.display(),
-            paths.png.display(),
-            rays as f64 / 1e6
+    report(args, &paths, &pixels, seconds);
+    Ok(())
+}
+
+/// Pixels that are kept until the files are written, at some 250 bytes each: 16 GB.
+const MOST_PIXELS: u64 = 1 << 26;
+
+/// Says what was done, and that there is nothing to see where all is black.
+fn report(args: &RenderArgs, paths: &Paths, pixels: &[Pixel], seconds: f64) {
+    let rays = HumanCount(pixels.iter().map(|pixel| pixel.rays).sum());
+    let (exr, png) = (paths.exr.display(), paths.png.display());
+    run::note(&args.run, &format!("{exr} and {png}: {seconds:.2} s, {rays} rays"));
+    if pixels.iter().all(|pixel| pixel.mean == [0.0; 3]) {
+        run::note(
+            &args.run,
+            "note: the image is black: no light reaches what the camera sees; `inspect` lists lights and warnings",
         );
     }
-    Ok(())
 }
 
 /// The two files, tried before anything is computed.
@@ -64,21 +77,19 @@ struct Paths {
 
 impl Paths {
     fn new(args: &RenderArgs) -> Result<Self> {
-        let exr = match &args.output {
-            Some(path) => path.clone(),
-            None => Path::new(args.scene.file_name().context("the scene has no file name")?).with_extension("exr"),
-        };
-        if exr.extension().is_none_or(|extension| extension != "exr") {
-            bail!(
-                "{} does not end in .exr, the one format that is written (a PNG preview goes beside it)",
-                exr.display()
-            );
-        }
+        let exr = args.output.clone().map_or_else(|| beside_us(&args.scene), Ok)?;
         let png = exr.with_extension("png");
         file::check(&exr)?;
         file::check(&png)?;
         Ok(Self { exr, png })
     }
+}
+
+/// The scene's name with .exr, in the current folder.
+fn beside_us(scene: &Path) -> Result<PathBuf> {
+    let name =
+        scene.file_name().with_context(|| format!("{} is a folder: name a .gltf or .glb file", scene.display()))?;
+    Ok(Path::new(name).with_extension("exr"))
 }
 
 fn rendering(args: &RenderArgs, [width, height]: ImageSize) -> Result<Rendering> {
@@ -108,27 +119,25 @@ fn rendering(args: &RenderArgs, [width, height]: ImageSize) -> Result<Rendering>
 
 /// R G B, the strategy's own layer with the variance of one camera sample, and what lies at each pixel's centre.
 fn channels(pixels: &[Pixel], strategy: &str) -> Vec<Channel> {
-    let mut planes: BTreeMap<String, Vec<f32>> = BTreeMap::new();
-    for pixel in pixels {
-        for (name, value) in values(pixel, strategy) {
-            planes.entry(name).or_default().push(value);
-        }
-    }
-    planes.into_iter().map(|(name, samples)| Channel { name, samples }).collect()
+    let centre = |pixel: &Pixel, of: fn(&Centre) -> [f64; 3]| pixel.centre.as_ref().map_or([0.0; 3], of);
+    let depth = pixels.iter().map(|pixel| pixel.centre.map_or(0.0, |centre| centre.depth) as f32);
+    let layers = [
+        layer(pixels, "", "RGB", |pixel| pixel.mean),
+        layer(pixels, &format!("{strategy}."), "RGB", |pixel| pixel.mean),
+        layer(pixels, &format!("{strategy}.Variance."), "RGB", |pixel| pixel.variance),
+        layer(pixels, "Albedo.", "RGB", |pixel| centre(pixel, |centre| centre.albedo.map(f64::from))),
+        layer(pixels, "P.", "XYZ", |pixel| centre(pixel, |centre| centre.position)),
+        layer(pixels, "N.", "XYZ", |pixel| centre(pixel, |centre| centre.normal)),
+        vec![Channel { name: "depth.Z".to_owned(), samples: depth.collect() }],
+    ];
+    layers.concat()
 }
 
-fn values(pixel: &Pixel, strategy: &str) -> Vec<(String, f32)> {
-    let centre = pixel.centre.unwrap_or(Centre { position: [0.0; 3], normal: [0.0; 3], depth: 0.0, albedo: [0.0; 3] });
-    let triples = [
-        (String::new(), "RGB", pixel.mean),
-        (format!("{strategy}."), "RGB", pixel.mean),
-        (format!("{strategy}.Variance."), "RGB", pixel.variance),
-        ("Albedo.".to_owned(), "RGB", centre.albedo.map(f64::from)),
-        ("P.".to_owned(), "XYZ", centre.position),
-        ("N.".to_owned(), "XYZ", centre.normal),
-    ];
-    let named = triples.into_iter().flat_map(|(prefix, letters, values)| {
-        letters.chars().zip(values).map(move |(letter, value)| (format!("{prefix}{letter}"), value as f32))
-    });
-    named.chain([("depth.Z".to_owned(), centre.depth as f32)]).collect()
+/// Three channels of one layer.
+fn layer(pixels: &[Pixel], name: &str, letters: &str, values: impl Fn(&Pixel) -> [f64; 3]) -> Vec<Channel> {
+    let channel = |(c, letter): (usize, char)| Channel {
+        name: format!("{name}{letter}"),
+        samples: pixels.iter().map(|pixel| values(pixel)[c] as f32).collect(),
+    };
+    letters.chars().enumerate().map(channel).collect()
 }

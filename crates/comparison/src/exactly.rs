@@ -1,0 +1,128 @@
+//! Exact light at receivers: irradiance and the variance of one sample of each strategy, with no chance in them.
+//!
+//! The serialised field names are the public contract (`twoforms.exact/1`).
+
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use twoforms_estimator::rgb::luminance;
+use twoforms_estimator::strategy::Strategy;
+use twoforms_exact::{Sight, Value, receiver};
+
+use crate::place::Place;
+use crate::result::Why;
+use crate::world::World;
+
+/// What is known at one receiver without chance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactResult {
+    /// The receiver's name.
+    pub name: String,
+    /// World position in metres.
+    pub position: [f64; 3],
+    /// World unit normal.
+    pub normal: [f64; 3],
+    /// The irradiance (or radiance); `null` where there is none.
+    pub irradiance: Option<Bounded>,
+    /// The same with V = 1: what the lights would give if nothing stood before them.
+    pub irradiance_unoccluded: Option<Bounded>,
+    /// Each strategy's variance.
+    #[serde(serialize_with = "by_name")]
+    pub strategies: Vec<ExactVariance>,
+    /// Reasons for missing values.
+    #[serde(skip_serializing_if = "Why::is_empty")]
+    pub why: Why,
+}
+
+/// A value with a bound of its error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Bounded {
+    /// Linear RGB; a variance is that of each channel.
+    pub rgb: [f64; 3],
+    /// Luminance; a variance is that of the samples' luminance.
+    pub luminance: f64,
+    /// Absolute bound of the luminance's error.
+    pub error_bound: f64,
+}
+
+/// The exact variance of one strategy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactVariance {
+    /// Canonical name.
+    #[serde(skip)]
+    pub strategy: String,
+    /// The variance of one sample; `null` where it can't be had.
+    pub variance_of_one: Option<Bounded>,
+    /// Why it can't.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+fn by_name<S: Serializer>(strategies: &[ExactVariance], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(strategies.len()))?;
+    for variance in strategies {
+        map.serialize_entry(&variance.strategy, variance)?;
+    }
+    map.end()
+}
+
+impl From<Value> for Bounded {
+    fn from(Value { rgb, luminance, error_bound }: Value) -> Self {
+        Self { rgb, luminance, error_bound }
+    }
+}
+
+/// Works out every receiver, in parallel on rayon's threads; `progress` is told of each that is done.
+pub fn exactly(
+    world: &World,
+    places: &[Place],
+    strategies: &[Strategy],
+    progress: &(dyn Fn(u64) + Sync),
+) -> Vec<ExactResult> {
+    let one = |place| {
+        let result = at(world, place, strategies);
+        progress(1);
+        result
+    };
+    places.par_iter().map(one).collect()
+}
+
+/// Works out one receiver.
+pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
+    let mut result = ExactResult {
+        name: place.name.clone(),
+        position: place.position.to_array(),
+        normal: place.normal.to_array(),
+        irradiance: None,
+        irradiance_unoccluded: None,
+        strategies: Vec::new(),
+        why: Why::new(),
+    };
+    match receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r()) {
+        Err(reason) => {
+            result.why.insert("irradiance", reason.to_string());
+        }
+        Ok(sight) => {
+            result.irradiance = Some(seen(sight.irradiance(), place.emission()));
+            result.irradiance_unoccluded = Some(seen(sight.irradiance_unoccluded(), place.emission()));
+            result.strategies = strategies.iter().map(|&strategy| variance(&sight, strategy)).collect();
+        }
+    }
+    result
+}
+
+/// What arrives and is reflected, plus what the surface itself emits.
+pub(crate) fn seen(arriving: Value, emission: [f64; 3]) -> Bounded {
+    let rgb: [f64; 3] = std::array::from_fn(|c| arriving.rgb[c] + emission[c]);
+    let emitted = luminance(emission);
+    let rounding = if emitted == 0.0 { 0.0 } else { f64::EPSILON * (arriving.luminance + emitted) };
+    Bounded { rgb, luminance: arriving.luminance + emitted, error_bound: arriving.error_bound + rounding }
+}
+
+fn variance(sight: &Sight, strategy: Strategy) -> ExactVariance {
+    let (variance_of_one, why) = match sight.variance(strategy) {
+        Ok(value) => (Some(value.into()), None),
+        Err(reason) => (None, Some(reason.to_string())),
+    };
+    ExactVariance { strategy: strategy.to_string(), variance_of_one, why }
+}

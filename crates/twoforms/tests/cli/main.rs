@@ -1,0 +1,14 @@
+//! The command line from outside: exit codes, messages, what is printed and what is written.
+
+mod compare;
+mod csv;
+mod files;
+mod help;
+mod inspect;
+mod json;
+mod receivers;
+mod refusals;
+mod render;
+mod streams;
+mod support;
+mod usage;

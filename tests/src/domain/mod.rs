@@ -1,0 +1,43 @@
+//! The domains of densities, cut into cells, and these into patches: for counting samples and for integrals.
+//!
+//! All of it is said in binary64 and by other formulas than the program's own: a patch's solid angle is that of its
+//! corners, not dA cosθ_y / r².
+
+mod chart;
+mod counts;
+mod hemisphere;
+mod lights;
+
+pub use chart::Chart;
+pub use counts::{chi_square, value};
+pub use hemisphere::HemisphereCells;
+pub use lights::LightCells;
+
+use twoforms_estimator::measure::Measure;
+
+/// A small part of a domain.
+#[derive(Clone, Copy, Debug)]
+pub struct Patch<P> {
+    /// A point in its middle.
+    pub at: P,
+    /// Its measure.
+    pub measure: f64,
+    /// The cell that it is part of.
+    pub cell: usize,
+}
+
+/// A measured domain in cells.
+pub trait Domain<M: Measure> {
+    /// Number of cells.
+    fn cells(&self) -> usize;
+    /// The cell that holds a point of the domain.
+    fn cell_of(&self, at: &M::Point<f32>) -> usize;
+    /// Patches that cover the domain.
+    fn patches(&self) -> Vec<Patch<M::Point<f32>>>;
+    /// Points that no sample may reach.
+    fn beyond(&self) -> Vec<M::Point<f32>>;
+    /// The probability that a density over this domain draws a point of it at all: what it integrates to.
+    fn mass(&self) -> f64;
+    /// How far a sum over the patches may lie from the integral.
+    fn resolution(&self) -> f64;
+}

@@ -1,0 +1,67 @@
+//! What single samples are worth.
+
+use twoforms_comparison::place::Place;
+use twoforms_estimator::density::Density;
+use twoforms_estimator::estimator::Estimator;
+use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::moments::Moments;
+use twoforms_estimator::query::Query;
+use twoforms_estimator::rgb::Rgb;
+use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::xi::{Draws, Key, Xi};
+use twoforms_geometry::view::{Effort, View};
+
+use crate::worlds::Case;
+
+/// The first n samples of an estimate, RGB, in order.
+#[derive(Clone, Copy, Debug)]
+pub struct Samples {
+    /// How ξ are spread.
+    pub sampler: Sampler,
+    /// Which ξ.
+    pub draws: Draws,
+    /// How many.
+    pub n: u32,
+}
+
+impl Samples {
+    /// Samples keyed by seed, place, density and sampler.
+    pub fn new(seed: u64, place: &Place, strategy: Strategy, sampler: Sampler, n: u32) -> Self {
+        let names = format!("{}\n{sampler}", strategy.density_name());
+        let words: Vec<u64> = [seed].into_iter().chain(place.bits()).chain(Key::words_of(&names)).collect();
+        Self { sampler, draws: Draws { key: Key::new(words), stream: [n, 0] }, n }
+    }
+
+    /// ξ of one of them.
+    pub fn xi(&self, index: u32) -> Xi<f32> {
+        self.sampler.xi(&self.draws, index)
+    }
+}
+
+impl Kernel for Samples {
+    type Output = Vec<[f32; 3]>;
+
+    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+        let worth = |index| {
+            let (Rgb(worth), _) = estimator.primary::<f32>(self.xi(index));
+            worth
+        };
+        (0..self.n).map(worth).collect()
+    }
+}
+
+/// What n samples of a strategy are worth at a receiver, as irradiance.
+pub fn samples(case: &Case, strategy: Strategy, sampler: Sampler, n: u32, seed: u64) -> Vec<[f32; 3]> {
+    let world = &case.stage.world;
+    let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
+    let kernel = Samples::new(seed, &case.place, strategy, sampler, n);
+    let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
+    prepared.run(&view, &Query::irradiance(&world.lights), kernel)
+}
+
+/// The moments of one channel.
+pub fn moments(samples: &[[f32; 3]], channel: usize) -> Moments {
+    let values: Vec<f64> = samples.iter().map(|worth| f64::from(worth[channel])).collect();
+    Moments::of(&values)
+}

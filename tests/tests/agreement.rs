@@ -44,18 +44,15 @@ fn by_channel(case: &Case, row: &Row) -> Vec<Outcome> {
     let name = format!("{case} {} {} N = {} R = {}", row.strategy, row.sampler, row.samples, row.replicates);
     let independent = row.sampler == Sampler::Independent.to_string();
     let (known, found) = (case.known.irradiance, row.mean);
-    match case.variance(strategy).filter(|_| independent) {
-        Some(cited) => (0..3)
-            .map(|c| {
-                let of_mean = cited[c] / row.samples as f64;
-                outcome(&format!("{name} channel {c}"), row, [found.rgb[c], known[c]], of_mean)
-            })
-            .collect(),
-        None => {
-            let of_mean = row.variance_of_mean.expect("several replicates");
-            vec![outcome(&format!("{name} luminance"), row, [found.luminance, luminance(known)], of_mean)]
-        }
-    }
+    let Some(cited) = case.variance(strategy).filter(|_| independent) else {
+        let of_mean = row.variance_of_mean.expect("several replicates");
+        return vec![outcome(&format!("{name} luminance"), row, [found.luminance, luminance(known)], of_mean)];
+    };
+    let of_channel = |c: usize| {
+        let of_mean = cited[c] / row.samples as f64;
+        outcome(&format!("{name} channel {c}"), row, [found.rgb[c], known[c]], of_mean)
+    };
+    (0..3).map(of_channel).collect()
 }
 
 /// The test of a row's mean, unless fewer than [`LEAST_HITS`] samples are expected not to be zero, which by Cauchy and

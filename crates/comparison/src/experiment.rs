@@ -9,8 +9,9 @@ use twoforms_geometry::view::{Effort, View};
 use crate::answer::Answer;
 use crate::clock;
 use crate::error::{Broken, ComparisonError};
-use crate::measurement::{Measurement, Task};
+use crate::measurement::Measurement;
 use crate::place::Place;
+use crate::plan::{Plan, Task};
 use crate::result::ReceiverResult;
 use crate::rows::Report;
 use crate::verdict::Criteria;
@@ -37,19 +38,6 @@ pub struct Experiment {
 const RECEIVERS_AT_ONCE: usize = 64;
 /// Samples that one task draws, at least: enough to make a task's overhead vanish.
 const SAMPLES_PER_TASK: u64 = 1 << 15;
-
-/// One row to be measured: a strategy, a sampler, and N.
-pub(crate) struct Plan<'a> {
-    pub(crate) prepared: &'a Prepared,
-    pub(crate) sampler: Sampler,
-    pub(crate) samples: u32,
-}
-
-impl Plan<'_> {
-    pub(crate) fn pair(&self) -> (Strategy, Sampler) {
-        (self.prepared.strategy(), self.sampler)
-    }
-}
 
 impl Experiment {
     /// Number of samples at each receiver, for progress bars.

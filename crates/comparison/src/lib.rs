@@ -8,6 +8,7 @@ pub mod experiment;
 pub mod image;
 mod measurement;
 pub mod place;
+mod plan;
 pub mod result;
 mod rows;
 pub mod statistics;

@@ -13,15 +13,7 @@ use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::view::View;
 
 use crate::clock;
-use crate::experiment::Plan;
-
-/// Some replicates of one row at one receiver.
-#[derive(Clone, Debug)]
-pub(crate) struct Task {
-    pub(crate) place: usize,
-    pub(crate) plan: usize,
-    pub(crate) replicates: Range<u32>,
-}
+use crate::plan::{Plan, Task};
 
 /// All that is kept of the replicates of one row.
 #[derive(Clone, Debug, Default)]

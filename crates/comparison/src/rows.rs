@@ -7,9 +7,9 @@ use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
 
 use crate::answer::Answer;
-use crate::experiment::Plan;
 use crate::measurement::Measurement;
 use crate::place::{Place, Quantity};
+use crate::plan::Plan;
 use crate::result::{Chebyshev, Colour, Known, Rate, ReceiverResult, Row, Why};
 use crate::statistics::{
     LogVariance, Reason, TwoValued, chebyshev, efficiency, fit_rate, sample_mean, sample_variance, variance_interval,

@@ -1,7 +1,7 @@
 //! Samples counted by cell.
 
 use twoforms_estimator::density::Density;
-use twoforms_estimator::measure::{Measure, Sample};
+use twoforms_estimator::measure::{Measure, Pdf, Sample};
 use twoforms_geometry::view::View;
 
 use super::Domain;
@@ -32,5 +32,5 @@ pub fn chi_square<M: Measure, D: Density<M>>(
 
 /// p at a point; zero where no sample falls.
 pub fn value<M: Measure, D: Density<M>>(density: &D, view: &View, at: &M::Point<f32>) -> f64 {
-    density.pdf::<f32>(view, at).map(|pdf| pdf.value()).or_zero().into()
+    density.pdf::<f32>(view, at).map(Pdf::value).or_zero().into()
 }

@@ -1,5 +1,7 @@
 //! All strategies agree with the answer that a scene carries, on all scenes.
 
+use std::collections::BTreeMap;
+
 use twoforms_comparison::experiment::Experiment;
 use twoforms_comparison::place::{Place, Quantity};
 use twoforms_comparison::result::{ReceiverResult, Row};
@@ -17,17 +19,20 @@ const BUDGET: f64 = 3e-6;
 /// Fewer samples that are not zero say nothing by a z-test.
 const LEAST_HITS: f64 = 30.0;
 
-/// Runs everything at these receivers.
-fn measure(stage: &Stage, places: &[Place]) -> Vec<ReceiverResult> {
-    let experiment = Experiment {
+fn experiment() -> Experiment {
+    Experiment {
         strategies: Strategy::all(),
         samplers: Sampler::ALL.to_vec(),
         samples: vec![16, 256],
         replicates: 1000,
         seed: SEED,
-        criteria: Criteria::default(),
-    };
-    experiment.run(&stage.world, places, &|_| ()).expect("finite samples")
+        criteria: Criteria { level: LEVEL, margin: 0.05 },
+    }
+}
+
+/// Runs everything at these receivers.
+fn measure(stage: &Stage, places: &[Place]) -> Vec<ReceiverResult> {
+    experiment().run(&stage.world, places, &|_| ()).expect("finite samples")
 }
 
 fn outcomes(stage: &Stage) -> Vec<Outcome> {
@@ -72,6 +77,24 @@ fn outcome(name: &str, row: &Row, [found, expected]: [f64; 2], variance_of_mean:
 fn every_strategy_finds_every_known_answer() {
     let outcomes = worlds::all().iter().flat_map(outcomes).collect();
     Family::new("means against known answers", LEVEL, SEED, outcomes).assert_holds(0.05);
+}
+
+/// The program's own verdicts: none of its strategies is found biased, and most are found unbiased.
+#[test]
+fn no_verdict_says_biased() {
+    let few = Experiment { samples: vec![256], replicates: 200, ..experiment() };
+    let mut said: BTreeMap<&str, usize> = BTreeMap::new();
+    for stage in worlds::all() {
+        let places: Vec<Place> = stage.cases().iter().map(|case| case.place.clone()).collect();
+        for result in few.run(&stage.world, &places, &|_| ()).expect("finite samples") {
+            for verdict in result.verdicts {
+                assert_ne!(verdict.verdict, "biased", "{} {}, seed {SEED}: {verdict:?}", stage.name, result.name);
+                *said.entry(verdict.verdict).or_default() += 1;
+            }
+        }
+    }
+    println!("{said:?}");
+    assert!(said["unbiased"] > 2 * said.values().sum::<usize>() / 3, "{said:?}");
 }
 
 /// nori's test of direct light: radiance ρE/π at the origin, ρ = 1/2, as `scenes/pa5/tests/test-direct.xml` states it, to

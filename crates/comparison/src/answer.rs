@@ -1,53 +1,34 @@
-//! The answer without chance at one receiver.
+//! The answer without chance at one receiver, as rows and verdicts ask for it.
 
 use twoforms_estimator::strategy::Strategy;
-use twoforms_exact::{Value, receiver};
 
-use crate::exactly::{Bounded, seen};
+use crate::exactly::{ExactResult, at};
 use crate::place::Place;
 use crate::result::Exact;
 use crate::world::World;
 
 /// Exact light at a receiver and the exact variances of one sample, or the reasons why there are none.
-pub(crate) struct Answer {
-    irradiance: Result<Exact, String>,
-    variances: Vec<(Strategy, Result<f64, String>)>,
-}
+pub(crate) struct Answer(ExactResult);
 
 impl Answer {
     /// Works out the answer for these strategies.
     pub(crate) fn new(world: &World, place: &Place, strategies: &[Strategy]) -> Self {
-        match receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r()) {
-            Err(reason) => Self { irradiance: Err(reason.to_string()), variances: Vec::new() },
-            Ok(sight) => {
-                let variance = |strategy| match sight.variance(strategy) {
-                    Ok(Value { luminance, .. }) => Ok(luminance),
-                    Err(reason) => Err(reason.to_string()),
-                };
-                Self {
-                    irradiance: Ok(exact(seen(sight.irradiance(), place.emission()))),
-                    variances: strategies.iter().map(|&strategy| (strategy, variance(strategy))).collect(),
-                }
-            }
-        }
+        Self(at(world, place, strategies))
     }
 
     /// The exact value, or why there is none.
     pub(crate) fn irradiance(&self) -> Result<Exact, &str> {
-        self.irradiance.as_ref().copied().map_err(String::as_str)
+        let exact = self.0.irradiance.map(|e| Exact { irradiance: e.rgb.into(), error_bound: e.error_bound });
+        exact.ok_or_else(|| self.0.why.get("irradiance").map_or("there is none", String::as_str))
     }
 
     /// The exact variance of one sample, luminance, or why there is none.
     pub(crate) fn variance_of_one(&self, strategy: Strategy) -> Result<f64, String> {
-        let found = self.variances.iter().find(|(other, _)| *other == strategy);
-        match (found, &self.irradiance) {
-            (Some((_, variance)), _) => variance.clone(),
-            (None, Err(reason)) => Err(reason.clone()),
-            (None, Ok(_)) => Err("no exact variance is worked out for this strategy".into()),
-        }
+        self.irradiance()?;
+        let name = strategy.to_string();
+        let found = self.0.strategies.iter().find(|variance| variance.strategy == name);
+        let reason =
+            || found.and_then(|variance| variance.why.clone()).unwrap_or_else(|| "it was not asked for".into());
+        found.and_then(|variance| variance.variance_of_one).map(|value| value.luminance).ok_or_else(reason)
     }
-}
-
-fn exact(Bounded { rgb, error_bound, .. }: Bounded) -> Exact {
-    Exact { irradiance: rgb.into(), error_bound }
 }

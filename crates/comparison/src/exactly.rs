@@ -112,7 +112,7 @@ pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult 
 }
 
 /// What arrives and is reflected, plus what the surface itself emits.
-pub(crate) fn seen(arriving: Value, emission: [f64; 3]) -> Bounded {
+fn seen(arriving: Value, emission: [f64; 3]) -> Bounded {
     let rgb: [f64; 3] = std::array::from_fn(|c| arriving.rgb[c] + emission[c]);
     let emitted = luminance(emission);
     let rounding = if emitted == 0.0 { 0.0 } else { f64::EPSILON * (arriving.luminance + emitted) };

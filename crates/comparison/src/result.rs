@@ -91,6 +91,10 @@ pub struct Row {
     pub variance_interval: Option<[f64; 2]>,
     /// The exact variance of an N-sample estimate, luminance.
     pub variance_exact: Option<f64>,
+    /// `variance_of_mean` / `variance_exact`: near 1 where samples and theory agree.
+    pub variance_ratio: Option<f64>,
+    /// 95 % interval of that ratio: `variance_interval` / `variance_exact`.
+    pub variance_ratio_interval: Option<[f64; 2]>,
     /// Sample variance (n − 1) of single samples' luminances over all R·N samples. `null` for a single sample.
     pub variance_of_one: Option<f64>,
     /// Chebyshev's bound against what happened.
@@ -126,6 +130,8 @@ pub struct Verdict {
     pub strategy: String,
     /// Canonical sampler name.
     pub sampler: String,
+    /// E: the luminance that samples should have on average, without what the surface itself emits.
+    pub reference: f64,
     /// Mean over all N minus the reference, luminance.
     pub difference: f64,
     /// Interval of the bias at the familywise level.

@@ -78,20 +78,34 @@ fn known(place: &Place) -> Option<Known> {
 fn evidence(receiver: usize, emission: f64, measured: &[(&Plan, Measurement)], answer: &Answer) -> Vec<Evidence> {
     let Ok(exact) = answer.irradiance() else { return Vec::new() };
     let of = |(strategy, sampler): (Strategy, Sampler)| {
-        let rows = measured.iter().filter(|(plan, _)| plan.pair() == (strategy, sampler));
-        let pooled = rows.fold(Measurement::default(), |pooled, (_, row)| pooled.with_samples_of(row));
-        Evidence {
+        let rows: Vec<_> = measured.iter().filter(|(plan, _)| plan.pair() == (strategy, sampler)).collect();
+        let pooled = rows.iter().fold(Measurement::default(), |pooled, (_, row)| pooled.with_samples_of(row));
+        let evidence = Evidence {
             receiver,
             strategy: strategy.to_string(),
             sampler: sampler.to_string(),
             reference: (exact.irradiance.luminance - emission, exact.error_bound),
-            exact_variance: answer.variance_of_one(strategy).ok().filter(|_| sampler == Sampler::Independent),
-            samples: pooled.one,
+            exact_variance: answer.variance_of_one(strategy).ok(),
+            units: pooled.one,
+            samples_per_unit: 1.0,
             hits: pooled.hits,
             one_value: pooled.range.is_one_value().then_some(pooled.range.high),
-        }
+        };
+        if sampler == Sampler::Independent { evidence } else { evidence.of_replicates(&replicates(&rows, emission)) }
     };
     pairs(measured).into_iter().map(of).collect()
+}
+
+/// Estimates that are independent whatever the sampler: the mean over all N of each replicate, less what x emits itself;
+/// and the number of samples in each.
+fn replicates(rows: &[&(&Plan, Measurement)], emission: f64) -> (Vec<f64>, f64) {
+    let total: f64 = rows.iter().map(|(plan, _)| f64::from(plan.samples)).sum();
+    let mut means = vec![0.0; rows.first().map_or(0, |(_, row)| row.estimates.len())];
+    for (plan, row) in rows {
+        let share = f64::from(plan.samples) / total;
+        means.iter_mut().zip(&row.estimates).for_each(|(mean, estimate)| *mean += share * (estimate - emission));
+    }
+    (means, total)
 }
 
 fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
@@ -111,6 +125,10 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
     };
     let variance_exact = exact.map_err(|reason| why.insert("variance_exact", reason)).ok();
     let variance_exact = variance_exact.map(|one| one / f64::from(plan.samples));
+    let over_exact = |variance: f64| variance_exact.filter(|exact| *exact > 0.0).map(|exact| variance / exact);
+    let variance_ratio = or_why(&mut why, "variance_ratio", variance_of_mean.and_then(over_exact), || {
+        "the measured or the exact variance is unknown, or the exact one is zero".into()
+    });
     let variance_of_one =
         or_why(&mut why, "variance_of_one", measured.one.variance(), || "there is a single sample".into());
     let efficiency = variance_of_mean.and_then(|variance| efficiency(variance, seconds));
@@ -123,6 +141,8 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
         variance_of_mean,
         variance_interval,
         variance_exact,
+        variance_ratio,
+        variance_ratio_interval: ratio_interval(&mut why, variance_interval, &over_exact),
         variance_of_one,
         chebyshev: kept(measured, answer, variance_exact),
         rays: measured.rays as f64 / replicates as f64,
@@ -130,6 +150,16 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
         efficiency: or_why(&mut why, "efficiency", efficiency, || "the variance or the time is zero or unknown".into()),
         why,
     }
+}
+
+/// The interval of the measured variance over the exact one.
+fn ratio_interval(
+    why: &mut Why,
+    interval: Option<[f64; 2]>,
+    over_exact: &impl Fn(f64) -> Option<f64>,
+) -> Option<[f64; 2]> {
+    let ratios = interval.and_then(|[lo, hi]| Some([over_exact(lo)?, over_exact(hi)?]));
+    or_why(why, "variance_ratio_interval", ratios, || "the variance's interval or the ratio is unknown".into())
 }
 
 fn or_why<T>(why: &mut Why, field: &'static str, value: Option<T>, reason: impl FnOnce() -> String) -> Option<T> {

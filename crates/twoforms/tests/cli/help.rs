@@ -4,7 +4,7 @@ use crate::support::{has_all, run, twoforms};
 
 #[test]
 fn the_help_of_every_command_shows_an_example() {
-    for command in ["compare", "render", "inspect", "completions"] {
+    for command in ["compare", "exact", "render", "inspect", "completions"] {
         for option in ["--help", "-h"] {
             let help = run([command, option]).printed();
             has_all(&help, &["Usage:", "Examples:", &format!("twoforms {command} ")]);

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::support::{changed_box, folder, run, scene, twoforms, without_camera, without_receivers, written};
 
 /// The commands that take a scene.
-const COMMANDS: [&str; 3] = ["compare", "render", "inspect"];
+const COMMANDS: [&str; 4] = ["compare", "exact", "render", "inspect"];
 
 #[test]
 fn files_that_are_no_scene_are_refused_by_every_command() {
@@ -42,6 +42,7 @@ fn a_scene_without_light_can_be_inspected_and_no_more() {
     });
     let says = ["dark.gltf", "no triangle emits light", "emissiveFactor above zero"];
     run(["compare", &path]).fails(&says);
+    run(["exact", &path]).fails(&says);
     run(["render", &path, "-o", &folder.join("dark.exr").display().to_string()]).fails(&says);
     assert!(run(["inspect", &path]).printed().contains("0 lights"));
 }
@@ -54,7 +55,7 @@ fn a_camera_must_be_there_where_one_is_needed() {
     let exr = folder.join("blind.exr").display().to_string();
     run(["render", &path, "-o", &exr]).fails(&says);
     run(["compare", &path, "--grid", "2,2"]).fails(&says);
-    run(["compare", &path, "--pixel", "2,2"]).fails(&says);
+    run(["exact", &path, "--pixel", "2,2"]).fails(&says);
 }
 
 #[test]

@@ -11,7 +11,7 @@ fn a_command_is_needed_and_must_exist() {
 
 #[test]
 fn a_scene_is_needed() {
-    for command in ["compare", "render", "inspect"] {
+    for command in ["compare", "exact", "render", "inspect"] {
         twoforms(command).misused(&["<SCENE>"]);
     }
 }
@@ -74,6 +74,8 @@ fn pixels_grids_views_crops_and_albedos_have_their_forms() {
         ("compare --view 0,0,0,0,0,1,40 --camera auto", "cannot be used with"),
         ("compare --albedo 2", "between 0 and 1"),
         ("compare --albedo -0.5", "between 0 and 1"),
+        ("compare --level 0", "between 0 and 1"),
+        ("compare --margin -1", "between 0 and 1"),
         ("compare --quantity flux", "irradiance, radiance"),
         ("compare --format xml", "table, json, csv"),
         ("compare --quiet --verbose", "cannot be used with"),

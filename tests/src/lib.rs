@@ -1,5 +1,6 @@
 //! Support for the tests.
 
+pub mod built;
 pub mod densities;
 pub mod domain;
 pub mod samples;

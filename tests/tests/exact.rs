@@ -21,7 +21,7 @@ fn apart(found: [f64; 3], expected: [f64; 3], allowed: impl Fn(usize) -> f64) ->
 
 fn irradiance_is_known(case: &Case) {
     let exact = exactly::at(&case.stage.world, &case.place, &[]);
-    let found = exact.irradiance.expect("an exact irradiance").rgb;
+    let found = exact.light.irradiance.expect("an exact irradiance").rgb;
     let expected = case.known.irradiance;
     let worst = apart(found, expected, |c| ROUNDING * expected[c]);
     assert!(worst.0 <= 1.0, "{case}: irradiance {worst:?}");
@@ -48,7 +48,7 @@ fn exact_variances_are_the_cited_ones() {
     let mut compared = 0;
     for case in worlds::cases(&stages) {
         let exact = exactly::at(&case.stage.world, &case.place, &Strategy::with_exact_variance());
-        compared += exact.strategies.iter().filter(|variance| variance_is_cited(&case, variance)).count();
+        compared += exact.light.strategies.iter().filter(|variance| variance_is_cited(&case, variance)).count();
     }
     assert!(compared >= worlds::cases(&stages).len() * Strategy::all().len(), "only {compared} were compared");
 }

@@ -60,11 +60,9 @@ fn a_furnace_is_one_plus_its_albedo_everywhere() {
     let camera = &stage.world.scene.cameras[0];
     let outcome = |strategy: Strategy| {
         let spp = 64;
-        println!("dbg");
         let pixels = render(&rendering(strategy, [32, 24], spp), &stage, camera);
         let [mean, variance] = pooled(pixels.iter(), spp, 0);
         let test = ZTest { found: mean, expected: 1.0 + albedo, sigma: variance.sqrt(), budget: BUDGET };
-        println!("{strategy} {test}");
         Outcome::Tested { p: test.p(), evidence: format!("{strategy}: {test}") }
     };
     let outcomes = Strategy::all().into_iter().map(outcome).collect();

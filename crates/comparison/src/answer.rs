@@ -18,15 +18,15 @@ impl Answer {
 
     /// The exact value, or why there is none.
     pub(crate) fn irradiance(&self) -> Result<Exact, &str> {
-        let exact = self.0.irradiance.map(|e| Exact { irradiance: e.rgb.into(), error_bound: e.error_bound });
-        exact.ok_or_else(|| self.0.why.get("irradiance").map_or("there is none", String::as_str))
+        let exact = self.0.light.irradiance.map(|e| Exact { irradiance: e.rgb.into(), error_bound: e.error_bound });
+        exact.ok_or_else(|| self.0.light.why.get("irradiance").map_or("there is none", String::as_str))
     }
 
     /// The exact variance of one sample, luminance, or why there is none.
     pub(crate) fn variance_of_one(&self, strategy: Strategy) -> Result<f64, String> {
         self.irradiance()?;
         let name = strategy.to_string();
-        let found = self.0.strategies.iter().find(|variance| variance.strategy == name);
+        let found = self.0.light.strategies.iter().find(|variance| variance.strategy == name);
         let reason =
             || found.and_then(|variance| variance.why.clone()).unwrap_or_else(|| "it was not asked for".into());
         found.and_then(|variance| variance.variance_of_one).map(|value| value.luminance).ok_or_else(reason)

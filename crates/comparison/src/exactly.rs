@@ -7,10 +7,11 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::strategy::Strategy;
-use twoforms_exact::{Sight, Value, receiver};
+use twoforms_exact::{Error, Sight, Value, receiver};
 
 use crate::place::Place;
 use crate::result::Why;
+use crate::swept::Swept;
 use crate::world::World;
 
 /// What is known at one receiver without chance.
@@ -22,6 +23,17 @@ pub struct ExactResult {
     pub position: [f64; 3],
     /// World unit normal.
     pub normal: [f64; 3],
+    /// The light there.
+    #[serde(flatten)]
+    pub light: ExactLight,
+    /// The light along a sweep, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<Swept>,
+}
+
+/// Exact light: what arrives, and how much each strategy's samples of it vary.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactLight {
     /// The irradiance (or radiance); `null` where there is none.
     pub irradiance: Option<Bounded>,
     /// The same with V = 1: what the lights would give if nothing stood before them.
@@ -89,26 +101,32 @@ pub fn exactly(
 
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
-    let mut result = ExactResult {
+    let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
+    ExactResult {
         name: place.name.clone(),
         position: place.position.to_array(),
         normal: place.normal.to_array(),
-        irradiance: None,
-        irradiance_unoccluded: None,
-        strategies: Vec::new(),
-        why: Why::new(),
-    };
-    match receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r()) {
-        Err(reason) => {
-            result.why.insert("irradiance", reason.to_string());
-        }
-        Ok(sight) => {
-            result.irradiance = Some(seen(sight.irradiance(), place.emission()));
-            result.irradiance_unoccluded = Some(seen(sight.irradiance_unoccluded(), place.emission()));
-            result.strategies = strategies.iter().map(|&strategy| variance(&sight, strategy)).collect();
-        }
+        light: ExactLight::of(place, sight, strategies),
+        sweep: None,
     }
-    result
+}
+
+impl ExactLight {
+    /// The light of what a place sees, or why there is none.
+    pub(crate) fn of(place: &Place, sight: Result<Sight, Error>, strategies: &[Strategy]) -> Self {
+        let mut light = Self { irradiance: None, irradiance_unoccluded: None, strategies: Vec::new(), why: Why::new() };
+        match sight {
+            Err(reason) => {
+                light.why.insert("irradiance", reason.to_string());
+            }
+            Ok(sight) => {
+                light.irradiance = Some(seen(sight.irradiance(), place.emission()));
+                light.irradiance_unoccluded = Some(seen(sight.irradiance_unoccluded(), place.emission()));
+                light.strategies = strategies.iter().map(|&strategy| variance(&sight, strategy)).collect();
+            }
+        }
+        light
+    }
 }
 
 /// What arrives and is reflected, plus what the surface itself emits.

@@ -2,16 +2,20 @@
 
 mod answer;
 mod clock;
+mod crossing;
 pub mod error;
 pub mod exactly;
 pub mod experiment;
 pub mod image;
 mod measurement;
+mod motion;
 pub mod place;
 mod plan;
 pub mod result;
 mod rows;
 pub mod statistics;
+pub mod sweep;
+pub mod swept;
 pub mod verdict;
 pub mod viewpoint;
 pub mod world;

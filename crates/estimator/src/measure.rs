@@ -23,9 +23,11 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 use std::ops::Div;
 
-use twoforms_geometry::real::Real;
+use twoforms_geometry::masked::Masked;
+use twoforms_geometry::real::{Mask, Real};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::vector::Direction;
+use twoforms_geometry::view::View;
 
 use crate::rgb::Rgb;
 
@@ -84,10 +86,11 @@ impl<R: Real> Aim<R> {
         Self { psi, target: R::splat_word(ANYWHERE) }
     }
 
-    /// Whether light from y counts.
+    /// y = vp(x, Ψ); of a direction aimed at a target, only where y lies on it. A density aims all its samples or none.
     #[inline(always)]
-    pub fn counts(&self, y: &SurfacePoint<R>) -> R::Mask {
-        R::same(self.target, R::splat_word(ANYWHERE)) | R::same(self.target, y.target)
+    pub fn vp(&self, view: &View) -> Masked<SurfacePoint<R>, R> {
+        let aimed = !R::same(self.target, R::splat_word(ANYWHERE));
+        if aimed.any() { view.vp_on(self.target, self.psi) } else { view.vp(self.psi) }
     }
 }
 

@@ -22,6 +22,7 @@ pub mod jittered;
 pub mod law;
 pub mod mis;
 pub mod moments;
+pub mod moved;
 pub mod outline;
 pub mod picked;
 pub mod receiver;

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 
-use crate::cubature::integrate;
+use crate::cubature::{guess, integrate};
 use crate::error::Error;
 use crate::facet::Facet;
 use crate::facing::Facing;
@@ -110,14 +110,15 @@ impl Seen {
     /// Relative error that the coordinates' rounding leaves in cosθ_x and cosθ_y/r² on the visible
     /// part.
     pub fn slack(&self) -> f64 {
-        slack(&self.moments, &self.facet)
+        slack(&self.facet, self.moments.solid_angle, self.moments.m10)
     }
 }
 
 /// The plane's distance s and the heights z are known to some ε × reach each; s/r² and z/r carry
-/// that over s and over z.
-fn slack(moments: &Moments, facet: &Facet) -> f64 {
-    8.0 * EPSILON * (1.0 + facet.reach / facet.s + moments.solid_angle / moments.m10)
+/// that over s and over z, whose ratio to r is M_10/M_00 on average.
+fn slack(facet: &Facet, solid_angle: f64, m10: f64) -> f64 {
+    let over_height = if m10 > 0.0 { solid_angle / m10 } else { f64::INFINITY };
+    8.0 * EPSILON * (1.0 + facet.reach / facet.s + over_height)
 }
 
 /// Edge sums, or cubature where the sums cancel: tiny, far or nearly edge-on polygons.
@@ -131,8 +132,10 @@ fn moments_of(pieces: &Pieces, facet: &Facet, amplification: f64) -> Moments {
             let d_omega = facet.s / (r2 * r);
             [d_omega, d_omega * cos_x, d_omega * cos_x * cos_x]
         };
-        let slack = slack(&moments, facet);
-        let relative = (0.1 * slack).max(1e-12);
+        // The sums may have lost all digits, and their sign: the slack is that of the cubature.
+        let [solid_angle, m10, _] = guess(pieces, integrands);
+        let slack = slack(facet, solid_angle, m10);
+        let relative = (0.1 * slack).clamp(1e-12, 1.0);
         if let Ok(sum) = integrate(pieces, integrands, |total| total.map(|v| relative * v)) {
             [moments.solid_angle, moments.m10, moments.m20] = sum.value;
             let outline = line_integral(pieces, integrands);

@@ -3,19 +3,11 @@
 use twoforms_comparison::result::{ReceiverResult, Row};
 
 use crate::layout::elided;
-use crate::number::{NONE, count, duration, percent, significant};
-use crate::ranking::estimators;
+use crate::number::{NONE, count, duration, percent, rounded, significant};
 
 /// Columns of a row: strategy, sampler and figures.
-pub(crate) const HEADER: [&str; 10] =
-    ["strategy", "sampler", "N", "mean", "variance", "± 95 %", "exact", "outside", "rays", "time"];
-
-/// The longest name of a strategy that keeps a line within 120 columns: shorter where there is a column for samplers.
-pub(crate) fn longest_name(receivers: &[ReceiverResult]) -> usize {
-    let estimators = estimators(receivers);
-    let one_sampler = estimators.windows(2).all(|pair| pair[0].1 == pair[1].1);
-    if one_sampler { 33 } else { 24 }
-}
+pub(crate) const HEADER: [&str; 11] =
+    ["strategy", "sampler", "N", "mean", "variance", "± 95 %", "exact", "ratio", "outside", "rays", "time"];
 
 /// The rows' cells; a line that goes on with the strategy and sampler of the line above leaves them out. Names longer than
 /// `longest` are shortened.
@@ -33,7 +25,7 @@ pub(crate) fn named_once(receiver: &ReceiverResult, rows: &[&Row], longest: usiz
 }
 
 /// The figures of a row, from N on.
-fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 8] {
+fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 9] {
     let or_none = |figure: Option<String>| figure.unwrap_or_else(|| NONE.to_owned());
     [
         row.samples.to_string(),
@@ -41,14 +33,25 @@ fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 8] {
         or_none(row.variance_of_mean.map(significant)),
         or_none(longer_arm(row).map(|share| format!("± {}", percent(share)))),
         or_none(row.variance_exact.or_else(|| known_variance(receiver, row)).map(significant)),
+        or_none(ratio(row)),
         or_none(row.chebyshev.map(|chebyshev| against(chebyshev.outside, chebyshev.delta))),
         count(row.rays),
         duration(row.seconds),
     ]
 }
 
-/// The longer arm of the variance's interval, as a share of the variance.
+/// Measured over exact variance, with its interval where there is one: `1.02 [0.94, 1.11]`.
+fn ratio(row: &Row) -> Option<String> {
+    let ratio = rounded(row.variance_ratio?, 3);
+    let interval = row.variance_ratio_interval.map(|ends| ends.map(|end| rounded(end, 3)));
+    Some(interval.map_or(ratio.clone(), |[lo, hi]| format!("{ratio} [{lo}, {hi}]")))
+}
+
+/// The longer arm of the variance's interval, as a share of the variance, where no ratio shows that interval.
 fn longer_arm(row: &Row) -> Option<f64> {
+    if row.variance_ratio_interval.is_some() {
+        return None;
+    }
     let (variance, [lo, hi]) = (row.variance_of_mean?, row.variance_interval?);
     (variance > 0.0).then(|| (hi - variance).max(variance - lo) / variance)
 }
@@ -67,8 +70,7 @@ fn known_variance(receiver: &ReceiverResult, row: &Row) -> Option<f64> {
     is_one.then(|| first * known.irradiance.luminance.powi(2) / row.samples as f64)
 }
 
-/// A share and the bound that it should keep: `1.2 % ≤ 10 %`.
+/// A share, and the bound where it is not kept: `1.2 %`, `12 % > 10 %`.
 fn against(share: f64, bound: f64) -> String {
-    let sign = if share <= bound { '≤' } else { '>' };
-    format!("{} {sign} {}", percent(share), percent(bound))
+    if share <= bound { percent(share) } else { format!("{} > {}", percent(share), percent(bound)) }
 }

@@ -11,6 +11,7 @@
 //! | `mean_r`, `mean_g`, `mean_b`, `mean_luminance` | mean over the replicates |
 //! | `variance_of_mean`, `variance_lo`, `variance_hi` | variance of an N-sample estimate, its 95 % interval; luminance² |
 //! | `variance_exact` | the exact variance of an N-sample estimate |
+//! | `variance_ratio`, `variance_ratio_lo`, `variance_ratio_hi` | `variance_of_mean` / `variance_exact`, its 95 % interval |
 //! | `variance_of_one` | variance of one sample |
 //! | `chebyshev_delta`, `chebyshev_outside` | δ, and the share of replicates outside σ/√δ |
 //! | `rays`, `seconds` | per N-sample estimate; CPU time |
@@ -27,7 +28,7 @@ use crate::document::Document;
 use crate::error::ReportError;
 
 /// The header.
-pub const COLUMNS: [&str; 28] = [
+pub const COLUMNS: [&str; 31] = [
     "receiver",
     "x",
     "y",
@@ -47,6 +48,9 @@ pub const COLUMNS: [&str; 28] = [
     "variance_lo",
     "variance_hi",
     "variance_exact",
+    "variance_ratio",
+    "variance_ratio_lo",
+    "variance_ratio_hi",
     "variance_of_one",
     "chebyshev_delta",
     "chebyshev_outside",
@@ -92,15 +96,19 @@ fn record(receiver: &ReceiverResult, row: &Row) -> Vec<String> {
 }
 
 /// The numbers from `mean_luminance` on; NaN where there is no value.
-fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 14] {
+fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 17] {
     let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let [variance_lo, variance_hi] = row.variance_interval.unwrap_or([f64::NAN; 2]);
+    let [ratio_lo, ratio_hi] = row.variance_ratio_interval.unwrap_or([f64::NAN; 2]);
     [
         row.mean.luminance,
         or_nan(row.variance_of_mean),
         variance_lo,
         variance_hi,
         or_nan(row.variance_exact),
+        or_nan(row.variance_ratio),
+        ratio_lo,
+        ratio_hi,
         or_nan(row.variance_of_one),
         or_nan(row.chebyshev.map(|chebyshev| chebyshev.delta)),
         or_nan(row.chebyshev.map(|chebyshev| chebyshev.outside)),

@@ -4,13 +4,15 @@ use std::io::Write;
 
 use ::csv::Writer;
 use serde::Serialize;
-use twoforms_comparison::exactly::{Bounded, ExactResult, ExactVariance};
+use twoforms_comparison::exactly::{Bounded, ExactLight, ExactResult, ExactVariance};
+use twoforms_comparison::swept::Swept;
 
 use crate::error::ReportError;
 use crate::finite;
 use crate::layout::{layout, plain};
 use crate::number::{NONE, count, short, significant};
 use crate::provenance::Provenance;
+use crate::sweep;
 
 /// Name and version of the format.
 pub const SCHEMA: &str = "twoforms.exact/1";
@@ -43,34 +45,60 @@ impl ExactDocument {
         Ok(out.write_all(b"\n")?)
     }
 
-    /// Writes one line per receiver and strategy; a missing value is `NaN`.
+    /// Writes one line per receiver and strategy; along a sweep one for each of its steps, whose value stands in a last
+    /// column of the parameter's name. A missing value is `NaN`.
     ///
     /// # Errors
     /// [`ReportError::Stream`] where `out` takes no more.
     pub fn write_csv(&self, out: impl Write) -> Result<(), ReportError> {
         let mut csv = Writer::from_writer(out);
-        csv.write_record(COLUMNS).map_err(std::io::Error::from)?;
+        let swept = self.receivers.iter().find_map(|receiver| receiver.sweep.as_ref());
+        let parameter = swept.map(|sweep| sweep.parameter.name());
+        csv.write_record(COLUMNS.into_iter().chain(parameter)).map_err(std::io::Error::from)?;
         for receiver in &self.receivers {
-            for variance in &receiver.strategies {
-                csv.write_record(record(receiver, variance)).map_err(std::io::Error::from)?;
+            for (at, light) in lights(receiver) {
+                for variance in &light.strategies {
+                    let value = at.map(|at| number(Some(at)));
+                    let record = record(receiver, light, variance).into_iter().chain(value);
+                    csv.write_record(record).map_err(std::io::Error::from)?;
+                }
             }
         }
         Ok(csv.flush()?)
     }
 
-    /// Tables for people: a block per receiver, a line per strategy. `samples for 1 %` is the N at which the standard
-    /// deviation of an estimate is one percent of the value: V / (0.01 E)².
+    /// Tables for people: a block per receiver. `samples for 1 %` is the N at which the standard deviation of an estimate
+    /// is one percent of the value: V / (0.01 E)².
     pub fn text(&self) -> String {
-        let rows = self.receivers.iter().flat_map(|receiver| receiver.strategies.iter().map(|v| cells(receiver, v)));
-        let lines = layout(&HEADER, rows, 1);
+        let swept = |receiver: &ExactResult| Some(sweep::text(receiver, receiver.sweep.as_ref()?));
+        let sweeps: Vec<String> = self.receivers.iter().filter_map(swept).collect();
+        let (blocks, note) =
+            if sweeps.is_empty() { (self.blocks(), None) } else { (sweeps, Some(sweep::NOTE.to_owned())) };
+        blocks.into_iter().chain(note).collect::<Vec<_>>().join("\n\n") + "\n"
+    }
+
+    /// A block per receiver, a line per strategy.
+    fn blocks(&self) -> Vec<String> {
+        let lines_of = |receiver: &ExactResult| -> Vec<Vec<String>> {
+            receiver.light.strategies.iter().map(|v| cells(&receiver.light, v)).collect()
+        };
+        let lines = layout(&HEADER, self.receivers.iter().flat_map(lines_of), 1);
         let (header, mut rest) = lines.split_at(lines.len().min(2));
-        let blocks = self.receivers.iter().map(|receiver| {
-            let (rows, after) = rest.split_at(receiver.strategies.len());
+        let block = |receiver: &ExactResult| {
+            let (rows, after) = rest.split_at(receiver.light.strategies.len());
             rest = after;
             let header = if rows.is_empty() { &[] } else { header };
             [&[heading(receiver)][..], header, rows].concat().join("\n")
-        });
-        blocks.collect::<Vec<_>>().join("\n\n") + "\n"
+        };
+        self.receivers.iter().map(block).collect()
+    }
+}
+
+/// The light at each step of a sweep, with the parameter's value, or else at rest.
+fn lights(receiver: &ExactResult) -> Vec<(Option<f64>, &ExactLight)> {
+    match &receiver.sweep {
+        None => vec![(None, &receiver.light)],
+        Some(Swept { steps, .. }) => steps.iter().map(|step| (Some(step.at), &step.light)).collect(),
     }
 }
 
@@ -90,12 +118,15 @@ const COLUMNS: [&str; 13] = [
     "irradiance_unoccluded",
 ];
 
-fn record(receiver: &ExactResult, variance: &ExactVariance) -> Vec<String> {
-    let number = |value: Option<f64>| format!("{:?}", value.unwrap_or(f64::NAN));
-    let (e, v) = (receiver.irradiance, variance.variance_of_one);
+fn number(value: Option<f64>) -> String {
+    format!("{:?}", value.unwrap_or(f64::NAN))
+}
+
+fn record(receiver: &ExactResult, light: &ExactLight, variance: &ExactVariance) -> Vec<String> {
+    let (e, v) = (light.irradiance, variance.variance_of_one);
     let [x, y, z] = receiver.position.map(Some);
     let rgb = |c: usize| v.map(|v| v.rgb[c]);
-    let open = receiver.irradiance_unoccluded.map(|open| open.luminance);
+    let open = light.irradiance_unoccluded.map(|open| open.luminance);
     let values = |values: &[Option<f64>]| values.iter().map(|&value| number(value)).collect::<Vec<_>>();
     let before = values(&[x, y, z, e.map(|e| e.luminance), e.map(|e| e.error_bound)]);
     let after = values(&[v.map(|v| v.luminance), v.map(|v| v.error_bound), rgb(0), rgb(1), rgb(2), open]);
@@ -104,8 +135,8 @@ fn record(receiver: &ExactResult, variance: &ExactVariance) -> Vec<String> {
 
 const HEADER: [&str; 5] = ["strategy", "variance of one", "error bound", "σ / E", "samples for 1 %"];
 
-fn cells(receiver: &ExactResult, variance: &ExactVariance) -> Vec<String> {
-    let e = receiver.irradiance.map_or(0.0, |e| e.luminance);
+fn cells(light: &ExactLight, variance: &ExactVariance) -> Vec<String> {
+    let e = light.irradiance.map_or(0.0, |e| e.luminance);
     let relative = |v: Bounded| (e > 0.0).then(|| v.luminance.max(0.0) / (e * e));
     let cell = |value: Option<f64>, shown: fn(f64) -> String| value.map_or(NONE.to_owned(), shown);
     let v = variance.variance_of_one;
@@ -120,7 +151,7 @@ fn cells(receiver: &ExactResult, variance: &ExactVariance) -> Vec<String> {
 
 fn heading(receiver: &ExactResult) -> String {
     let at = receiver.position.map(short).join(", ");
-    let value = match (&receiver.irradiance, receiver.why.get("irradiance")) {
+    let value = match (&receiver.light.irradiance, receiver.light.why.get("irradiance")) {
         (Some(Bounded { luminance, error_bound, .. }), _) => format!("E = {luminance:?} ± {error_bound:.0e}"),
         (None, why) => format!("no exact value: {}", why.map_or("", String::as_str)),
     };

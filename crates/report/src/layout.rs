@@ -4,6 +4,12 @@ use comfy_table::{Cell, CellAlignment, ColumnConstraint, ContentLineStyle, LineS
 
 use crate::number::NONE;
 
+/// Longest line of a table.
+const TABLE_WIDTH: usize = 120;
+
+/// Longest name of a strategy in a table, and the shortest that it is cut to.
+const NAMES: [usize; 2] = [33, 12];
+
 /// Longest line of running text.
 const TEXT_WIDTH: usize = 110;
 
@@ -21,6 +27,14 @@ pub(crate) fn layout(header: &[&str], rows: impl Iterator<Item = Vec<String>>, n
         }
     }
     table.lines().map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// The lines that `layout` makes of names of at most so many characters, which are as many as the table's width allows.
+pub(crate) fn fitting(layout: impl Fn(usize) -> Vec<String>) -> Vec<String> {
+    let [longest, shortest] = NAMES;
+    let lines = layout(longest);
+    let width = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
+    if width <= TABLE_WIDTH { lines } else { layout(longest.saturating_sub(width - TABLE_WIDTH).max(shortest)) }
 }
 
 const STYLE: TableStyle = TableStyle::new()

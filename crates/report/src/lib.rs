@@ -5,7 +5,7 @@
 //! | a comparison with its provenance and its hash | [`document`] | everything below |
 //! | pretty JSON, schema `twoforms.compare/1` | [`json`] | scripts |
 //! | one CSV line per receiver, strategy, sampler and N | [`csv`] | notebooks |
-//! | tables, rates and the sentence to remember | [`table`], [`summary`] | people |
+//! | tables, rates, verdicts and the sentence to remember | [`table`], [`summary`] | people |
 //! | binary32 EXR, 8-bit sRGB preview | [`exr`], [`png`] | viewers |
 //!
 //! A number that is not finite is an error everywhere: it never becomes a `null`, an empty cell or a black pixel.
@@ -24,12 +24,14 @@ pub mod summary;
 pub mod table;
 
 mod attributes;
+mod bias;
 mod cells;
 mod finite;
 mod layout;
 mod number;
 mod ranking;
 mod rates;
+mod sweep;
 
 pub use document::Document;
 pub use error::ReportError;

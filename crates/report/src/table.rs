@@ -2,18 +2,18 @@
 
 use twoforms_comparison::result::{ReceiverResult, Row};
 
-use crate::cells::{HEADER, longest_name, named_once};
+use crate::cells::{HEADER, named_once};
 use crate::document::Document;
-use crate::layout::{layout, plain, wrapped};
+use crate::layout::{fitting, layout, plain, wrapped};
 use crate::number::{short, significant};
-use crate::{rates, summary};
+use crate::{bias, rates, summary};
 
 /// Up to so many receivers, [`Detail::for_receivers`] shows every row.
 pub const RECEIVERS_IN_FULL: usize = 12;
 
 const LEGEND: &str = "\
 mean, variance: luminance of an N-sample estimate · exact: its variance without chance, or the scene's own answer
-outside: replicates beyond Chebyshev's σ/√δ, at most δ of all · rays, CPU time: per estimate";
+ratio: variance over exact, 95 % interval · outside: replicates beyond Chebyshev's σ/√δ · rays, CPU time: per estimate";
 
 /// How much a table shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,14 +31,16 @@ impl Detail {
     }
 }
 
-/// The tables of `document`, then the rates of convergence, then [`summary::sentence`]; lines end with `\n`.
+/// The tables of `document`, then the rates of convergence, the verdicts, and [`summary::sentence`]; lines end with `\n`.
 ///
-/// Four significant digits; `± 95 %` is the longer arm of the variance's interval as a share of the variance; `exact`
-/// is the variance without chance, or the scene's own answer; `–` stands for no value.
+/// Four significant digits; `exact` is the variance without chance, or the scene's own answer; `ratio` the measured one
+/// over it with its 95 % interval, and where there is no such interval `± 95 %` is the longer arm of the variance's own, as
+/// a share of the variance; `–` stands for no value.
 pub fn text(document: &Document, detail: Detail) -> String {
     let receivers = document.receivers();
     let tables = tables(receivers, detail);
-    let sections = [title(document), tables, rates_section(receivers), wrapped(&summary::sentence(document))];
+    let sentence = wrapped(&summary::sentence(document));
+    let sections = [title(document), tables, rates_section(receivers), bias::section(receivers), sentence];
     sections.into_iter().filter(|section| !section.is_empty()).collect::<Vec<_>>().join("\n\n") + "\n"
 }
 
@@ -60,8 +62,8 @@ fn title(document: &Document) -> String {
 fn tables(receivers: &[ReceiverResult], detail: Detail) -> String {
     let shown = receivers.iter().map(|receiver| (receiver, shown_rows(receiver, detail)));
     let shown: Vec<(&ReceiverResult, Vec<&Row>)> = shown.collect();
-    let longest = longest_name(receivers);
-    let lines = layout(&HEADER, shown.iter().flat_map(|(receiver, rows)| named_once(receiver, rows, longest)), 2);
+    let cells = |longest| shown.iter().flat_map(move |(receiver, rows)| named_once(receiver, rows, longest));
+    let lines = fitting(|longest| layout(&HEADER, cells(longest), 2));
     let (header, mut rest) = lines.split_at(lines.len().min(2));
     let header = header.join("\n");
     let blocks = shown.iter().map(|(receiver, rows)| {

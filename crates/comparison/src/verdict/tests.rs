@@ -152,7 +152,9 @@ fn a_bias_of_the_detectable_size_is_found_80_times_in_100() {
                 let honest = evidence_of(&drawn, variance);
                 let law = honest.law();
                 let detectable = law.detectable(1.0, honest.budget(), 0.01).expect("a power");
-                drawn.iter_mut().for_each(|w| *w *= 1.0 + sign * detectable);
+                for w in &mut drawn {
+                    *w *= 1.0 + sign * detectable;
+                }
                 verdict(&evidence_of(&drawn, variance)) == "biased"
             });
             let found = found.count();

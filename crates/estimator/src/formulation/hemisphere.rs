@@ -23,7 +23,7 @@ impl Formulation for Hemisphere {
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x
     #[inline(always)]
     fn integrand<R: Real>(view: &View, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
-        let y = view.vp(aim.psi).filter(|y| aim.counts(y));
+        let y = aim.vp(view);
         let cos_x = aim.psi.cos_theta();
         Integrand::new(query.l_e(y) * query.f_r() * cos_x)
     }

@@ -101,6 +101,17 @@ impl<'g> View<'g> {
         Masked::new(self.facet::<R>(target).point_along(psi, target), reached)
     }
 
+    /// y = vp(x, Ψ) for a direction aimed at a point of `target`: where Ψ meets its plane, if nothing stands between.
+    ///
+    /// That Ψ points at the target is taken from the caller, who drew the point: a direction rounded to binary32 may
+    /// leave a small light near its edges, and those samples would be lost.
+    #[inline(always)]
+    pub fn vp_on<R: Real>(&self, target: R::Word, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
+        let y = self.facet::<R>(target).point_along(psi, target);
+        let facing = R::zero().lt(y.depth) & R::zero().lt(psi.cos_theta());
+        Masked::new(y, facing & self.visible(&y, facing))
+    }
+
     /// V(x, y): whether nothing stands between x and y. Where y is below x's horizon or x behind y the answer means
     /// nothing; both make the sample worth zero.
     #[inline(always)]

@@ -48,14 +48,14 @@ fn json_rows_verdicts_and_rates_have_the_fields_of_the_schema() {
     for field in ["strategy", "sampler", "samples", "replicates", "mean", "variance_of_mean", "variance_interval"] {
         assert!(row.contains(&field), "{field}");
     }
-    for field in ["variance_exact", "variance_of_one", "rays", "seconds", "efficiency"] {
+    for field in ["variance_exact", "variance_ratio", "variance_ratio_interval", "variance_of_one", "rays", "seconds"] {
         assert!(row.contains(&field), "{field}");
     }
     let verdict = keys(&receiver["verdicts"][0]);
     for field in ["strategy", "sampler", "difference", "interval", "level", "margin", "arithmetic_budget"] {
         assert!(verdict.contains(&field), "{field}");
     }
-    for field in ["detectable", "samples_needed", "verdict", "note"] {
+    for field in ["reference", "detectable", "samples_needed", "verdict", "note"] {
         assert!(verdict.contains(&field), "{field}");
     }
     assert_eq!(keys(&receiver["rates"][0]), ["strategy", "sampler", "slope", "interval", "regime"]);

@@ -1,7 +1,7 @@
 //! The tables for people.
 
-use crate::support::{document, receiver, receivers, row, rows};
-use twoforms_comparison::result::{Chebyshev, Rate, ReceiverResult};
+use crate::support::{document, receiver, receivers, row, rows, verdict};
+use twoforms_comparison::result::{Chebyshev, Rate, ReceiverResult, Verdict};
 use twoforms_report::table::{Detail, text};
 
 #[test]
@@ -46,7 +46,7 @@ fn a_value_that_is_missing_is_a_dash_and_a_broken_bound_shows() {
     (rows[0].variance_of_mean, rows[0].variance_interval) = (None, None);
     rows[1].chebyshev = rows[1].chebyshev.map(|chebyshev| Chebyshev { outside: 0.12, ..chebyshev });
     let text = text(&document(vec![receiver("x", rows)]), Detail::EveryRow);
-    assert!(text.contains("hemisphere/uniform     1  0.5883         –        –  0.30 % ≤ 10 %"), "{text}");
+    assert!(text.contains("hemisphere/uniform     1  0.5883         –        –        0.30 %"), "{text}");
     assert!(text.contains("12 % > 10 %"), "{text}");
     assert!(!text.contains(" exact "), "no row has an exact variance, so there is no column for it: {text}");
 }
@@ -72,4 +72,31 @@ fn rates_are_pooled_and_regimes_counted() {
     assert!(text.contains("  hemisphere/cosine   -1.103  [-1.120, -1.086]  "), "{text}");
     assert!(text.contains("1/N at 2 of 3 receivers, other at 1 of 3 receivers\n"), "{text}");
     assert!(text.contains("  area/uniform        -1.003                 –  "), "{text}");
+}
+
+#[test]
+fn verdicts_are_counted_and_biases_named() {
+    let mut receivers = [1.0, 1.0, 1.0].map(|scale| receiver("far", rows(scale)));
+    let note = "there is a bias, below the margin";
+    let biased = Verdict {
+        interval: Some([-0.003, -0.001]),
+        detectable: Some(0.001),
+        ..verdict("area/uniform", "biased", note)
+    };
+    let few = verdict("area/uniform", "undecided", "too few to judge by");
+    receivers[0].name = "near a\nlamp".into();
+    receivers[0].verdicts.push(biased);
+    receivers[1].verdicts.push(Verdict { samples_needed: Some(5e5), ..few.clone() });
+    receivers[2].verdicts.push(Verdict { samples_needed: Some(4e5), detectable: Some(0.01), ..few });
+    let text = text(&document(receivers.into()), Detail::EveryRow);
+    let lines: Vec<&str> =
+        text.lines().skip_while(|line| !line.starts_with("Bias")).take_while(|l| !l.is_empty()).collect();
+    assert_eq!(lines[0], "Bias: at familywise level 0.01, against a margin of 1.0 % of E");
+    assert_eq!(lines[3], "  area/uniform         0          2       1   0.17 % to 1.7 %       5.000e5");
+    assert_eq!(
+        lines[4],
+        format!("  biased: area/uniform at near a\\nlamp, by -0.003000 to -0.001000 where E = 0.5883: {note}")
+    );
+    assert_eq!(lines[5], "  undecided: area/uniform at 2 receivers: too few to judge by");
+    assert_eq!(lines.len(), 6, "{text}");
 }

@@ -4,6 +4,7 @@ mod camera;
 mod help;
 mod list;
 mod receivers;
+mod sweep;
 mod whole;
 
 use std::path::PathBuf;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{ArgAction, Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use twoforms_comparison::sweep::Sweep;
 use twoforms_estimator::sampler::Sampler;
 
 pub use camera::{CameraArgs, ImageSize};
@@ -148,6 +150,10 @@ pub struct ExactArgs {
     /// Strategies, separated by commas [default: all with an exact variance]
     #[arg(long, alias = "strategy", value_name = "LIST")]
     pub strategies: Option<StrategyList>,
+    /// Move receivers or lights in steps, and find where two variances are equal: receiver.x|y|z|normal and light.x|y|z are
+    /// offsets in metres, light.scale is about each light's centroid [strategies by default: the basic ones]
+    #[arg(long, value_name = "PARAM=FROM:TO[:log]:STEPS", value_parser = sweep::sweep)]
+    pub sweep: Option<Sweep>,
     /// Where, and what is asked there.
     #[command(flatten)]
     pub places: PlacesArgs,

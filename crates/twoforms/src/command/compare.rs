@@ -4,11 +4,12 @@ use std::time::SystemTime;
 
 use anyhow::{Result, bail};
 use twoforms_comparison::experiment::Experiment;
+use twoforms_comparison::result::{ReceiverResult, Verdict};
 use twoforms_comparison::verdict::Criteria;
 use twoforms_report::Document;
 
 use crate::args::{CompareArgs, once};
-use crate::output::Destination;
+use crate::output::{self, Destination};
 use crate::{places, progress, run};
 
 /// Measures, and prints. `Found::Bias` where a check was asked for and an estimator is biased.
@@ -34,9 +35,24 @@ pub fn run(args: &CompareArgs) -> Result<Found> {
     let provenance = run::provenance(&world.scene, &args.run, started)
         .with("replicates", u64::from(args.replicates))
         .with("quantity", args.places.quantity.name());
-    let biased = results.iter().flat_map(|receiver| &receiver.verdicts).any(|verdict| verdict.verdict == "biased");
+    let biases = if args.criteria.check { biases(&results) } else { Vec::new() };
     destination.write(&Document::new(provenance, results)?)?;
-    Ok(if args.criteria.check && biased { Found::Bias } else { Found::Nothing })
+    for bias in &biases {
+        output::say(bias);
+    }
+    Ok(if biases.is_empty() { Found::Nothing } else { Found::Bias })
+}
+
+/// A line for every estimator that is found to be biased.
+fn biases(results: &[ReceiverResult]) -> Vec<String> {
+    let of_receiver = |receiver: &ReceiverResult| {
+        let biased = receiver.verdicts.iter().filter(|verdict| verdict.verdict == "biased");
+        let line = |v: &Verdict| {
+            format!("biased: {} ({}) at {} by {:.3e}: {}", v.strategy, v.sampler, receiver.name, v.difference, v.note)
+        };
+        biased.map(line).collect::<Vec<_>>()
+    };
+    results.iter().flat_map(of_receiver).collect()
 }
 
 /// What a check found.

@@ -4,6 +4,7 @@ use std::time::SystemTime;
 
 use anyhow::Result;
 use twoforms_comparison::exactly::exactly;
+use twoforms_comparison::swept::{default_strategies, swept};
 use twoforms_estimator::strategy::Strategy;
 use twoforms_report::{ExactDocument, ReportError, file};
 
@@ -19,9 +20,14 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     if let Some(path) = &args.output {
         file::check(path)?;
     }
-    let strategies = args.strategies.as_ref().map_or_else(Strategy::with_exact_variance, |list| list.0.clone());
-    let bar = progress::bar(places.len() as u64, "receivers", &args.run);
-    let results = exactly(&world, &places, &strategies, &|done| bar.inc(done));
+    let strategies = args.strategies.as_ref().map(|list| list.0.clone());
+    let steps = args.sweep.map_or(1, |sweep| sweep.steps());
+    let bar = progress::bar(places.len() as u64 * u64::from(steps), "receivers", &args.run);
+    let progress = |done| bar.inc(done);
+    let results = match &args.sweep {
+        None => exactly(&world, &places, &strategies.unwrap_or_else(Strategy::with_exact_variance), &progress),
+        Some(sweep) => swept(&world, &places, &strategies.unwrap_or_else(default_strategies), sweep, &progress),
+    };
     bar.finish_and_clear();
     let quantity = args.places.quantity.name();
     let provenance = run::provenance(&world.scene, &args.run, started).with("quantity", quantity);

@@ -3,7 +3,8 @@
 use crate::support::twoforms;
 
 const HEADER: &str = "receiver,x,y,z,n_x,n_y,n_z,strategy,sampler,samples,replicates,mean_r,mean_g,mean_b,\
-                      mean_luminance,variance_of_mean,variance_lo,variance_hi,variance_exact,variance_of_one,\
+                      mean_luminance,variance_of_mean,variance_lo,variance_hi,variance_exact,variance_ratio,\
+                      variance_ratio_lo,variance_ratio_hi,variance_of_one,\
                       chebyshev_delta,chebyshev_outside,rays,seconds,efficiency,irradiance_known,irradiance_exact,\
                       setup_seconds";
 

@@ -1,7 +1,9 @@
 //! The command line from outside: exit codes, messages, what is printed and what is written.
 
+mod check;
 mod compare;
 mod csv;
+mod exact;
 mod files;
 mod help;
 mod inspect;

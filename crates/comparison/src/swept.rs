@@ -1,0 +1,157 @@
+//! Exact light along a sweep, and where two strategies' variances are equal.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use twoforms_estimator::strategy::Strategy;
+
+use crate::crossing::{Difference, Root, Sample, roots};
+use crate::exactly::{self, ExactLight, ExactResult, ExactVariance};
+use crate::motion::Stage;
+use crate::place::Place;
+use crate::sweep::{Parameter, Spacing, Sweep};
+use crate::world::World;
+
+/// What one receiver meets along a sweep.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Swept {
+    /// What moves.
+    pub parameter: Parameter,
+    /// Its first value.
+    pub from: f64,
+    /// Its last value.
+    pub to: f64,
+    /// How steps are spaced.
+    pub scale: Spacing,
+    /// The values in order, and the light at each.
+    pub steps: Vec<Step>,
+    /// Where two variances are equal, in the order of the sweep.
+    pub crossings: Vec<Crossing>,
+}
+
+/// One value of the parameter, and the light there.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// The value.
+    pub at: f64,
+    /// The light.
+    #[serde(flatten)]
+    pub light: ExactLight,
+}
+
+/// A value of the parameter at which two variances (of the luminance) are equal, one below the other on either side.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Crossing {
+    /// The two strategies' canonical names.
+    pub strategies: [String; 2],
+    /// The value.
+    pub at: f64,
+    /// How far the error bounds of the two variances may move it.
+    pub error_bound: f64,
+}
+
+/// Works out every receiver at rest and along the sweep, in parallel on rayon's threads; `progress` is told of each step
+/// of each receiver that is done.
+///
+/// Crossings are found where the steps show a change of sign or a dip of the difference (see the head of `crossing.rs`):
+/// of several between the same two steps, some may be missed.
+pub fn swept(
+    world: &World,
+    places: &[Place],
+    strategies: &[Strategy],
+    sweep: &Sweep,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Vec<ExactResult> {
+    let stage = Stage::new(world, sweep.parameter());
+    let one = |place: &Place| {
+        let along = Along { stage: &stage, place, strategies, sweep };
+        ExactResult { sweep: Some(along.swept(progress)), ..exactly::at(world, place, strategies) }
+    };
+    places.par_iter().map(one).collect()
+}
+
+/// The strategies of a sweep when nothing is said: the basic ones, and the balance heuristic.
+pub fn default_strategies() -> Vec<Strategy> {
+    use twoforms_estimator::selection::Selection::Together;
+    use twoforms_estimator::strategy::{Draw, Weighting};
+    vec![
+        Strategy::Area(Draw::Uniform, Together),
+        Strategy::HemisphereCosine,
+        Strategy::HemisphereUniform,
+        Strategy::Area(Draw::SolidAngle, Together),
+        Strategy::Area(Draw::ProjectedSolidAngle, Together),
+        Strategy::Mis(Weighting::Balance),
+    ]
+}
+
+/// One receiver along a sweep.
+struct Along<'a> {
+    stage: &'a Stage<'a>,
+    place: &'a Place,
+    strategies: &'a [Strategy],
+    sweep: &'a Sweep,
+}
+
+/// How near to both ends a further sample lies, in steps: it shows whether a difference falls from there.
+const BESIDE_END: f64 = 1e-3;
+
+impl Along<'_> {
+    fn swept(&self, progress: &(dyn Fn(u64) + Sync)) -> Swept {
+        let places: Vec<f64> = self.sweep.places().collect();
+        let step = |&u: &f64| {
+            let step = self.step(u);
+            progress(1);
+            step
+        };
+        let steps: Vec<Step> = places.par_iter().map(step).collect();
+        let crossings = self.crossings(&places, &steps);
+        let [from, to] = self.sweep.range();
+        Swept { parameter: self.sweep.parameter(), from, to, scale: self.sweep.spacing(), steps, crossings }
+    }
+
+    fn step(&self, u: f64) -> Step {
+        let at = self.sweep.at(u);
+        Step { at, light: ExactLight::of(self.place, self.stage.look(self.place, at), self.strategies) }
+    }
+
+    /// The crossings of every two strategies.
+    fn crossings(&self, places: &[f64], steps: &[Step]) -> Vec<Crossing> {
+        let beside = BESIDE_END / places.len() as f64;
+        let ends = [beside, 1.0 - beside].map(|u| (u, self.step(u)));
+        let mut samples: Vec<(f64, &Step)> = places.iter().copied().zip(steps).collect();
+        samples.extend(ends.iter().map(|(u, step)| (*u, step)));
+        samples.sort_by(|(u, _), (v, _)| u.total_cmp(v));
+        let count = self.strategies.len();
+        let pairs: Vec<[usize; 2]> = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b])).collect();
+        let mut crossings: Vec<(f64, Crossing)> =
+            pairs.into_par_iter().flat_map_iter(|pair| self.crossings_of(pair, &samples)).collect();
+        crossings.sort_by(|(u, _), (v, _)| u.total_cmp(v));
+        crossings.into_iter().map(|(_, crossing)| crossing).collect()
+    }
+
+    fn crossings_of(&self, pair: [usize; 2], samples: &[(f64, &Step)]) -> Vec<(f64, Crossing)> {
+        let sampled = |&(u, step): &(f64, &Step)| Sample { u, difference: difference(&step.light.strategies, pair) };
+        let samples: Vec<Sample> = samples.iter().map(sampled).collect();
+        let roots = roots(&samples, |u| self.difference(pair, u));
+        roots.into_iter().map(|root| (root.u, self.crossing(pair, root))).collect()
+    }
+
+    /// The difference of two variances at a place between steps.
+    fn difference(&self, pair: [usize; 2], u: f64) -> Option<Difference> {
+        let sight = self.stage.look(self.place, self.sweep.at(u)).ok()?;
+        let [a, b] = pair.map(|k| sight.variance(self.strategies[k]).ok());
+        let (a, b) = (a?, b?);
+        Some(Difference::of([a.luminance, a.error_bound], [b.luminance, b.error_bound]))
+    }
+
+    fn crossing(&self, pair: [usize; 2], Root { u, error }: Root) -> Crossing {
+        let [before, at, after] = [u - error, u, u + error].map(|u| self.sweep.at(u));
+        let error_bound = (after - at).abs().max((at - before).abs());
+        Crossing { strategies: pair.map(|k| self.strategies[k].to_string()), at, error_bound }
+    }
+}
+
+/// The difference of two variances of a step.
+fn difference(variances: &[ExactVariance], [a, b]: [usize; 2]) -> Option<Difference> {
+    let of = |k: usize| variances.get(k)?.variance_of_one.map(|v| [v.luminance, v.error_bound]);
+    Some(Difference::of(of(a)?, of(b)?))
+}

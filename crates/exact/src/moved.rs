@@ -1,0 +1,201 @@
+//! Lights that stand elsewhere than the scene has them, moved and scaled in binary64.
+//!
+//! Corners and blockers of moved lights are never rounded to binary32, so that every value is as smooth a function of the
+//! motion as the light itself. Only the question whether a triangle blocks at all, which jumps anyway, is asked of the
+//! rounded vertices: the answer is that of a scene saved with its lights where they have moved.
+
+use std::iter::once;
+use std::ops::{ControlFlow, Range};
+
+use glam::DVec3;
+use twoforms_geometry::blocking;
+use twoforms_geometry::frame::Frame;
+use twoforms_geometry::geometry::Geometry;
+use twoforms_geometry::mesh::{Mesh, Triangle};
+use twoforms_geometry::target::Sides;
+use twoforms_geometry::tracer::Region;
+use twoforms_geometry::view::Prospect;
+
+use crate::cone::sides;
+
+/// Triangles that move as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// A run of the mesh's triangles.
+    pub triangles: Range<u32>,
+    /// Where they go: y becomes scale × y + offset (world, metres), the scale being that of the [`Motion`].
+    pub offset: DVec3,
+}
+
+/// Where the lights stand: one scale for all, an offset for each. What belongs to no body stays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    scale: f64,
+    bodies: Vec<Body>,
+}
+
+/// y becomes scale × y + offset.
+#[derive(Clone, Copy)]
+struct Similarity {
+    scale: f64,
+    offset: DVec3,
+}
+
+impl Motion {
+    /// The motion of `bodies`, which must hold every target of the scene; `scale` > 0.
+    pub fn new(scale: f64, mut bodies: Vec<Body>) -> Self {
+        bodies.sort_by_key(|body| body.triangles.start);
+        Self { scale, bodies }
+    }
+
+    /// By how much areas, and so powers, grow.
+    pub fn growth(&self) -> f64 {
+        self.scale * self.scale
+    }
+
+    /// One target as the receiver at the origin of `frame` meets it after the motion, and all that can stand between.
+    pub fn prospect(&self, geometry: &Geometry, frame: &Frame, target: u32) -> Prospect {
+        let moved = Moved { motion: self, geometry, frame, target };
+        let corners = moved.corners();
+        let lit = moved.is_lit(&corners);
+        let blockers = if lit { moved.blockers(&corners) } else { Vec::new() };
+        Prospect { corners, lit, blockers }
+    }
+
+    /// The offset of the body that holds a triangle.
+    fn offset(&self, triangle: u32) -> Option<DVec3> {
+        let after = self.bodies.partition_point(|body| body.triangles.start <= triangle);
+        let body = after.checked_sub(1).map(|k| &self.bodies[k])?;
+        body.triangles.contains(&triangle).then_some(body.offset)
+    }
+
+    /// Where triangles of this offset go.
+    fn similarity(&self, offset: Option<DVec3>) -> Similarity {
+        match offset {
+            Some(offset) => Similarity { scale: self.scale, offset },
+            None => Similarity { scale: 1.0, offset: DVec3::ZERO },
+        }
+    }
+
+    /// The offsets there are, that of what stays first; bodies side by side that move alike count once.
+    fn offsets(&self) -> impl Iterator<Item = Option<DVec3>> {
+        once(None).chain(self.bodies.chunk_by(|a, b| a.offset == b.offset).map(|alike| Some(alike[0].offset)))
+    }
+
+    /// A triangle after the motion, rounded to binary32 as a scene would hold it.
+    fn rounded(&self, mesh: &Mesh, triangle: u32) -> Triangle {
+        let by = self.similarity(self.offset(triangle));
+        let [a, b, c] = mesh.triangle(triangle).vertices().map(|v| by.at(v).as_vec3());
+        Triangle { a, b, c }
+    }
+}
+
+impl Similarity {
+    fn at(&self, y: DVec3) -> DVec3 {
+        self.scale * y + self.offset
+    }
+
+    /// The points that go into the region: n·(scale p + offset − origin) <= d.
+    fn before(&self, region: &Region) -> Region {
+        Region {
+            origin: (region.origin - self.offset) / self.scale,
+            half_spaces: region.half_spaces.iter().map(|&(n, d)| (n, d / self.scale)).collect(),
+        }
+    }
+}
+
+/// One moved target from one receiver.
+struct Moved<'a> {
+    motion: &'a Motion,
+    geometry: &'a Geometry,
+    frame: &'a Frame,
+    target: u32,
+}
+
+impl Moved<'_> {
+    /// The target's own triangles, the first of which stands for its plane.
+    fn own(&self) -> impl Iterator<Item = u32> {
+        self.geometry.targets()[self.target as usize].triangles()
+    }
+
+    fn offset(&self) -> Option<DVec3> {
+        self.own().next().and_then(|first| self.motion.offset(first))
+    }
+
+    /// In the frame of x, counter-clockwise seen from the front.
+    fn corners(&self) -> Vec<DVec3> {
+        let by = self.motion.similarity(self.offset());
+        let corners = self.geometry.targets()[self.target as usize].corners(self.geometry.mesh());
+        corners.as_slice().iter().map(|corner| self.frame.localize(by.at(corner.as_dvec3()))).collect()
+    }
+
+    /// Whether light can come from it: x on a side that emits and off its plane, some of it above x's horizon. Corners
+    /// that are not finite count as lit, for a sight refuses them.
+    fn is_lit(&self, corners: &[DVec3]) -> bool {
+        if !corners.iter().all(|corner| corner.is_finite()) {
+            return true;
+        }
+        let faces = match self.geometry.targets()[self.target as usize].sides {
+            Sides::Front => faces_front(corners),
+            Sides::Both => true,
+        };
+        let beside = || self.own().take(1).any(|first| self.plane_holds_x(first));
+        faces && corners.iter().any(|corner| corner.z > 0.0) && !beside()
+    }
+
+    fn plane_holds_x(&self, triangle: u32) -> bool {
+        blocking::plane_holds(&self.motion.rounded(self.geometry.mesh(), triangle), self.frame.x())
+    }
+
+    /// The triangles whose boxes touch the pyramid over the target and that may block it: one query of the hierarchy for
+    /// each offset, where the triangles are at rest and the pyramid is moved back.
+    fn blockers(&self, corners: &[DVec3]) -> Vec<[DVec3; 3]> {
+        let pyramid = pyramid(self.frame, corners);
+        let mut blockers = Vec::new();
+        for offset in self.motion.offsets() {
+            let by = self.motion.similarity(offset);
+            self.geometry.within(&by.before(&pyramid), |triangle| {
+                if self.motion.offset(triangle) == offset && self.may_block(triangle, offset) {
+                    let vertices = self.geometry.mesh().triangle(triangle).vertices();
+                    blockers.push(vertices.map(|v| self.frame.localize(by.at(v))));
+                }
+                ControlFlow::Continue(())
+            });
+        }
+        blockers
+    }
+
+    /// Whether a triangle is neither part of the target nor coplanar with it, nor edge-on to x. What moves alike stays
+    /// coplanar.
+    fn may_block(&self, triangle: u32, offset: Option<DVec3>) -> bool {
+        let rounded = |triangle| self.motion.rounded(self.geometry.mesh(), triangle);
+        let spared = if offset == self.offset() {
+            !self.geometry.may_block(triangle, self.target)
+        } else {
+            self.own().any(|own| blocking::coplanar(&rounded(own), &rounded(triangle)))
+        };
+        !spared && !self.plane_holds_x(triangle)
+    }
+}
+
+/// Whether x is before the front of a polygon.
+fn faces_front(corners: &[DVec3]) -> bool {
+    normal(corners).dot(corners[0]) < 0.0
+}
+
+fn normal(corners: &[DVec3]) -> DVec3 {
+    (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero()
+}
+
+/// The pyramid from x over a polygon, up to its plane and above x's horizon, in world space.
+fn pyramid(frame: &Frame, corners: &[DVec3]) -> Region {
+    let mut around = corners.to_vec();
+    if faces_front(corners) {
+        around.reverse();
+    }
+    let toward = normal(&around);
+    let inward = sides(&around).into_iter().chain(once(DVec3::Z));
+    let base = (frame.to_world(toward), toward.dot(around[0]));
+    let half_spaces = inward.map(|inward| (frame.to_world(-inward), 0.0)).chain(once(base)).collect();
+    Region { origin: frame.x(), half_spaces }
+}

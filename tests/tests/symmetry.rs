@@ -32,7 +32,7 @@ fn receivers() -> Vec<Receiver> {
         Receiver::new("under", [0.0625, 0.0, 0.25], Quat::IDENTITY),
         Receiver::new("beside", [-0.5, 0.0, -0.25], Quat::IDENTITY),
         Receiver::new("far", [1.5, 0.125, 0.5], Quat::IDENTITY),
-        Receiver::new("leaning", [0.75, 0.25, -0.125], Quat::from_xyzw(0.125, 0.25, 0.5, 0.875)),
+        Receiver::new("leaning", [0.75, 0.25, -0.125], Quat::from_xyzw(0.1, 0.3, 0.3, 0.9)),
     ]
 }
 

@@ -3,7 +3,8 @@
 //! What is looked at is g = (V_a − V_b)/(V_a + V_b), which neither scale nor decay of the two can hide, as a function of a
 //! place u. A sign counts only where the variances differ by more than their error bounds allow. Between two samples of
 //! opposite sign there is a crossing; where |g| dips without a change of sign, the bottom of the dip is looked for, and on
-//! either side of it there may be one. Crossings that lie closer together than the samples, without such a dip, are missed.
+//! either side of it there may be one; and where g begins between two samples, as at the edge of a shadow, it is followed to
+//! its edge. Crossings that lie closer together than the samples, without such a dip, are missed.
 
 /// The difference of two variances over their sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,13 +15,11 @@ pub(crate) struct Difference {
 }
 
 impl Difference {
-    /// Of two variances, each with its error bound.
-    pub(crate) fn of([a, a_error]: [f64; 2], [b, b_error]: [f64; 2]) -> Self {
+    /// Of two variances, each with its error bound; `None` where both are zero, as without light.
+    pub(crate) fn of([a, a_error]: [f64; 2], [b, b_error]: [f64; 2]) -> Option<Self> {
         let sum = a.abs() + b.abs();
-        if sum == 0.0 {
-            return Self { value: 0.0, error: 0.0 };
-        }
-        Self { value: (a - b) / sum, error: (a_error + b_error) / sum }
+        let is_zero = a.abs() <= a_error && b.abs() <= b_error;
+        (!is_zero).then(|| Self { value: (a - b) / sum, error: (a_error + b_error) / sum })
     }
 
     /// −1, 0 or 1; 0 where the difference is within its error bound.
@@ -34,7 +33,7 @@ impl Difference {
 pub(crate) struct Sample {
     /// The place.
     pub u: f64,
-    /// The difference there; `None` where a variance is missing.
+    /// The difference there; `None` where a variance is missing or both are zero.
     pub difference: Option<Difference>,
 }
 
@@ -58,15 +57,21 @@ struct Known {
 /// a sample without a value, nor where the two are equal at several samples in a row: over a whole interval.
 pub(crate) fn roots(samples: &[Sample], g: impl Fn(f64) -> Option<Difference>) -> Vec<Root> {
     let search = Search { g };
-    let known = samples.iter().map(|sample| sample.difference.map(|g| Known { u: sample.u, g })).collect::<Vec<_>>();
-    let runs = known.split(Option::is_none).map(|run| run.iter().flatten().copied().collect::<Vec<Known>>());
-    runs.flat_map(|run| search.run(run)).collect()
+    let known = |sample: &Sample| (sample.u, sample.difference.map(|g| Known { u: sample.u, g }));
+    let mut known: Vec<(f64, Option<Known>)> = samples.iter().map(known).collect();
+    let edges: Vec<Known> = known.windows(2).flat_map(|pair| search.edge(pair[0], pair[1])).collect();
+    known.extend(edges.into_iter().map(|edge| (edge.u, Some(edge))));
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let runs = known.split(|sample| sample.1.is_none());
+    runs.flat_map(|run| search.run(run.iter().filter_map(|sample| sample.1).collect())).collect()
 }
 
 /// A jump across zero is no crossing: there g does not become this small.
 const SMALL: f64 = 1e-6;
-/// A dip is followed down to this share of its width.
+/// A dip or an edge is followed down to this share of its width.
 const NARROW: f64 = 1e-6;
+/// How near to an end of the samples one more lies, as a share of the distance to the next.
+const BESIDE_END: f64 = 1e-3;
 /// (3 − √5)/2: where golden-section search probes the longer side.
 const GOLDEN: f64 = 0.381_966_011_250_105_15;
 /// Ridders' method halves the bracket at least this often.
@@ -81,8 +86,36 @@ impl<G: Fn(f64) -> Option<Difference>> Search<G> {
         (self.g)(u).map(|g| Known { u, g })
     }
 
+    /// Where one of two samples has a sign and the other has none or no value: samples with a sign that approach the
+    /// edge between, by halving.
+    fn edge(&self, one: (f64, Option<Known>), other: (f64, Option<Known>)) -> Vec<Known> {
+        let has_sign = |known: &Known| known.g.sign() != 0.0;
+        let (mut inside, mut outside) = match [one, other].map(|sample| sample.1.is_some_and(|known| has_sign(&known)))
+        {
+            [true, false] => (one.0, other.0),
+            [false, true] => (other.0, one.0),
+            _ => return Vec::new(),
+        };
+        let (mut found, narrow) = (Vec::new(), NARROW * (outside - inside).abs());
+        while (outside - inside).abs() > narrow {
+            let middle = 0.5 * (inside + outside);
+            match self.at(middle).filter(has_sign) {
+                Some(known) => {
+                    found.push(known);
+                    inside = middle;
+                }
+                None => outside = middle,
+            }
+        }
+        found
+    }
+
     /// The crossings within one run of samples.
     fn run(&self, mut run: Vec<Known>) -> Vec<Root> {
+        if let (&[first, second, ..], &[.., before, last]) = (&run[..], &run[..]) {
+            run.extend([self.beside(first, second), self.beside(last, before)].into_iter().flatten());
+        }
+        run.sort_by(|a, b| a.u.total_cmp(&b.u));
         let dips = run.windows(3).filter(|triple| is_dip(triple));
         let beyond: Vec<Known> = dips.filter_map(|triple| self.beyond(triple[0], triple[1], triple[2])).collect();
         run.extend(beyond);
@@ -93,6 +126,11 @@ impl<G: Fn(f64) -> Option<Difference>> Search<G> {
             pair[0].1.g.sign() != pair[1].1.g.sign() && equal_between <= 1
         });
         changes.filter_map(|pair| self.root(pair[0].1, pair[1].1)).collect()
+    }
+
+    /// A sample beside an end of the run, which shows whether |g| falls from there: then it has a dip before `next`.
+    fn beside(&self, end: Known, next: Known) -> Option<Known> {
+        self.at(end.u + BESIDE_END * (next.u - end.u))
     }
 
     /// A place in a dip where the sign is the other one: golden-section search for the bottom, left as soon as one is met.
@@ -167,7 +205,7 @@ mod tests {
 
     /// The crossings of a(u) and b(u) with a relative error bound, from `steps` samples of \[0, 1\].
     fn found(a: impl Fn(f64) -> f64, b: impl Fn(f64) -> f64, error: f64, steps: u32) -> Vec<Root> {
-        search(|u| Some(Difference::of([a(u), error * a(u)], [b(u), error * b(u)])), steps)
+        search(|u| Difference::of([a(u), error * a(u)], [b(u), error * b(u)]), steps)
     }
 
     fn search(g: impl Fn(f64) -> Option<Difference>, steps: u32) -> Vec<Root> {
@@ -214,6 +252,16 @@ mod tests {
         assert_eq!(found(|u| u * shadow(u), |u| 0.5 * shadow(u), 1e-15, 12), []);
     }
 
+    /// A crossing between the edge of a shadow and the first sample beyond it.
+    #[test]
+    fn the_edge_of_a_shadow_is_looked_at() {
+        for edge in [0.3, 0.34] {
+            let light = |u: f64| (u - edge).max(0.0);
+            let roots = places(&found(|u| light(u) * 1.37, |u| light(u) * (1.0 + u), 1e-15, 11));
+            assert!(roots.len() == 1 && (roots[0] - 0.37).abs() < 1e-12, "{edge}: {roots:?}");
+        }
+    }
+
     #[test]
     fn a_jump_and_a_touch_are_no_crossings() {
         assert_eq!(found(|u| if u < 0.37 { 1.0 } else { 3.0 }, |_| 2.0, 1e-15, 11), []);
@@ -222,9 +270,10 @@ mod tests {
 
     #[test]
     fn nothing_is_looked_for_across_a_missing_value() {
-        let g = |missing: f64| move |u: f64| Some(Difference::of([u, 0.0], [0.45, 0.0])).filter(|_| u != missing);
-        assert_eq!(search(g(0.5), 11), []);
-        assert_eq!(search(g(0.8), 11).len(), 1);
+        let g =
+            |missing: f64| move |u: f64| Difference::of([u, 0.0], [0.65, 0.0]).filter(|_| (u - missing).abs() > 0.06);
+        assert_eq!(search(g(0.6), 11), []);
+        assert_eq!(search(g(0.3), 11).len(), 1);
     }
 
     #[test]

@@ -91,9 +91,6 @@ struct Along<'a> {
     sweep: &'a Sweep,
 }
 
-/// How near to both ends a further sample lies, in steps: it shows whether a difference falls from there.
-const BESIDE_END: f64 = 1e-3;
-
 impl Along<'_> {
     fn swept(&self, progress: &(dyn Fn(u64) + Sync)) -> Swept {
         let places: Vec<f64> = self.sweep.places().collect();
@@ -115,22 +112,18 @@ impl Along<'_> {
 
     /// The crossings of every two strategies.
     fn crossings(&self, places: &[f64], steps: &[Step]) -> Vec<Crossing> {
-        let beside = BESIDE_END / places.len() as f64;
-        let ends = [beside, 1.0 - beside].map(|u| (u, self.step(u)));
-        let mut samples: Vec<(f64, &Step)> = places.iter().copied().zip(steps).collect();
-        samples.extend(ends.iter().map(|(u, step)| (*u, step)));
-        samples.sort_by(|(u, _), (v, _)| u.total_cmp(v));
         let count = self.strategies.len();
         let pairs: Vec<[usize; 2]> = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b])).collect();
         let mut crossings: Vec<(f64, Crossing)> =
-            pairs.into_par_iter().flat_map_iter(|pair| self.crossings_of(pair, &samples)).collect();
+            pairs.into_par_iter().flat_map_iter(|pair| self.crossings_of(pair, places, steps)).collect();
         crossings.sort_by(|(u, _), (v, _)| u.total_cmp(v));
         crossings.into_iter().map(|(_, crossing)| crossing).collect()
     }
 
-    fn crossings_of(&self, pair: [usize; 2], samples: &[(f64, &Step)]) -> Vec<(f64, Crossing)> {
-        let sampled = |&(u, step): &(f64, &Step)| Sample { u, difference: difference(&step.light.strategies, pair) };
-        let samples: Vec<Sample> = samples.iter().map(sampled).collect();
+    /// The crossings of two strategies, each with its place.
+    fn crossings_of(&self, pair: [usize; 2], places: &[f64], steps: &[Step]) -> Vec<(f64, Crossing)> {
+        let sample = |(&u, step): (&f64, &Step)| Sample { u, difference: difference(&step.light.strategies, pair) };
+        let samples: Vec<Sample> = places.iter().zip(steps).map(sample).collect();
         let roots = roots(&samples, |u| self.difference(pair, u));
         roots.into_iter().map(|root| (root.u, self.crossing(pair, root))).collect()
     }
@@ -140,7 +133,7 @@ impl Along<'_> {
         let sight = self.stage.look(self.place, self.sweep.at(u)).ok()?;
         let [a, b] = pair.map(|k| sight.variance(self.strategies[k]).ok());
         let (a, b) = (a?, b?);
-        Some(Difference::of([a.luminance, a.error_bound], [b.luminance, b.error_bound]))
+        Difference::of([a.luminance, a.error_bound], [b.luminance, b.error_bound])
     }
 
     fn crossing(&self, pair: [usize; 2], Root { u, error }: Root) -> Crossing {
@@ -153,5 +146,5 @@ impl Along<'_> {
 /// The difference of two variances of a step.
 fn difference(variances: &[ExactVariance], [a, b]: [usize; 2]) -> Option<Difference> {
     let of = |k: usize| variances.get(k)?.variance_of_one.map(|v| [v.luminance, v.error_bound]);
-    Some(Difference::of(of(a)?, of(b)?))
+    Difference::of(of(a)?, of(b)?)
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use twoforms_comparison::result::{ReceiverResult, Verdict};
 
-use crate::layout::{layout, plain};
+use crate::layout::{layout, plain, wrapped};
 use crate::number::{NONE, percent, significant};
 use crate::ranking::{estimators, full_name};
 
@@ -29,8 +29,8 @@ pub(crate) fn section(receivers: &[ReceiverResult]) -> String {
     let title =
         format!("Bias: at familywise level {}, against a margin of {} of E", first.level, percent(first.margin));
     let table = layout(&HEADER, judged.iter().map(row), 1);
-    let named = judged.iter().flat_map(|judged| biases(judged).chain(reasons(judged)));
-    [title].into_iter().chain(table).chain(named).collect::<Vec<_>>().join("\n")
+    let biases = judged.iter().flat_map(biases);
+    [title].into_iter().chain(table).chain(biases).chain(reasons(&judged)).collect::<Vec<_>>().join("\n")
 }
 
 fn judged(receivers: &[ReceiverResult]) -> Vec<Judged<'_>> {
@@ -82,17 +82,26 @@ fn biases<'a>(judged: &'a Judged) -> impl Iterator<Item = String> + 'a {
     })
 }
 
-/// A line for each reason why receivers are undecided.
-fn reasons<'a>(judged: &'a Judged) -> impl Iterator<Item = String> + 'a {
-    let mut places: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for (receiver, verdict) in judged.verdicts.iter().filter(|(_, verdict)| verdict.verdict == "undecided") {
-        places.entry(&verdict.note).or_default().push(&receiver.name);
+/// A sentence for each reason why receivers are undecided: which strategies, and where.
+fn reasons(judged: &[Judged]) -> Vec<String> {
+    let mut places: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for judged in judged {
+        let mut receivers: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        for (receiver, verdict) in judged.verdicts.iter().filter(|(_, verdict)| verdict.verdict == "undecided") {
+            receivers.entry(&verdict.note).or_default().push(&receiver.name);
+        }
+        for (note, receivers) in receivers {
+            places.entry(note).or_default().push(format!("{} at {}", judged.name, named(&receivers)));
+        }
     }
-    places.into_iter().map(|(note, receivers)| {
-        let place = match receivers[..] {
-            [one] => plain(one),
-            _ => format!("{} receivers", receivers.len()),
-        };
-        format!("  undecided: {} at {place}: {note}", judged.name)
-    })
+    let line = |(note, at): (&str, Vec<String>)| wrapped(&format!("undecided, {note}: {}", at.join(", ")));
+    places.into_iter().map(|place| format!("  {}", line(place).replace('\n', "\n    "))).collect()
+}
+
+/// One by its name, several by their number.
+fn named(receivers: &[&str]) -> String {
+    match receivers {
+        [one] => plain(one),
+        _ => format!("{} receivers", receivers.len()),
+    }
 }

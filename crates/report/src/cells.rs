@@ -6,8 +6,8 @@ use crate::layout::elided;
 use crate::number::{NONE, count, duration, percent, rounded, significant};
 
 /// Columns of a row: strategy, sampler and figures.
-pub(crate) const HEADER: [&str; 11] =
-    ["strategy", "sampler", "N", "mean", "variance", "± 95 %", "exact", "ratio", "outside", "rays", "time"];
+pub(crate) const HEADER: [&str; 10] =
+    ["strategy", "sampler", "N", "mean", "variance", "exact", "ratio", "outside", "rays", "time"];
 
 /// The rows' cells; a line that goes on with the strategy and sampler of the line above leaves them out. Names longer than
 /// `longest` are shortened.
@@ -25,15 +25,14 @@ pub(crate) fn named_once(receiver: &ReceiverResult, rows: &[&Row], longest: usiz
 }
 
 /// The figures of a row, from N on.
-fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 9] {
+fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 8] {
     let or_none = |figure: Option<String>| figure.unwrap_or_else(|| NONE.to_owned());
     [
         row.samples.to_string(),
         significant(row.mean.luminance),
         or_none(row.variance_of_mean.map(significant)),
-        or_none(longer_arm(row).map(|share| format!("± {}", percent(share)))),
         or_none(row.variance_exact.or_else(|| known_variance(receiver, row)).map(significant)),
-        or_none(ratio(row)),
+        or_none(ratio(row).or_else(|| longer_arm(row).map(|share| format!("± {}", percent(share))))),
         or_none(row.chebyshev.map(|chebyshev| against(chebyshev.outside, chebyshev.delta))),
         count(row.rays),
         duration(row.seconds),
@@ -47,11 +46,8 @@ fn ratio(row: &Row) -> Option<String> {
     Some(interval.map_or(ratio.clone(), |[lo, hi]| format!("{ratio} [{lo}, {hi}]")))
 }
 
-/// The longer arm of the variance's interval, as a share of the variance, where no ratio shows that interval.
+/// The longer arm of the variance's interval, as a share of the variance.
 fn longer_arm(row: &Row) -> Option<f64> {
-    if row.variance_ratio_interval.is_some() {
-        return None;
-    }
     let (variance, [lo, hi]) = (row.variance_of_mean?, row.variance_interval?);
     (variance > 0.0).then(|| (hi - variance).max(variance - lo) / variance)
 }

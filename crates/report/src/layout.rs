@@ -29,12 +29,14 @@ pub(crate) fn layout(header: &[&str], rows: impl Iterator<Item = Vec<String>>, n
     table.lines().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// The lines that `layout` makes of names of at most so many characters, which are as many as the table's width allows.
-pub(crate) fn fitting(layout: impl Fn(usize) -> Vec<String>) -> Vec<String> {
-    let [longest, shortest] = NAMES;
+/// The lines that `layout` makes of names of at most so many characters, which are as many as the table's width allows;
+/// `longest` is the length of the longest name.
+pub(crate) fn fitting(longest: usize, layout: impl Fn(usize) -> Vec<String>) -> Vec<String> {
+    let [most, least] = NAMES;
+    let longest = longest.min(most);
     let lines = layout(longest);
     let width = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
-    if width <= TABLE_WIDTH { lines } else { layout(longest.saturating_sub(width - TABLE_WIDTH).max(shortest)) }
+    if width <= TABLE_WIDTH { lines } else { layout(longest.saturating_sub(width - TABLE_WIDTH).max(least)) }
 }
 
 const STYLE: TableStyle = TableStyle::new()

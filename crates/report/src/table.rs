@@ -13,7 +13,8 @@ pub const RECEIVERS_IN_FULL: usize = 12;
 
 const LEGEND: &str = "\
 mean, variance: luminance of an N-sample estimate · exact: its variance without chance, or the scene's own answer
-ratio: variance over exact, 95 % interval · outside: replicates beyond Chebyshev's σ/√δ · rays, CPU time: per estimate";
+ratio: variance over exact with its 95 % interval; ± that of the variance itself, where there is no exact one
+outside: replicates beyond Chebyshev's σ/√δ, at most δ of all · rays, CPU time: per estimate";
 
 /// How much a table shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,8 +35,8 @@ impl Detail {
 /// The tables of `document`, then the rates of convergence, the verdicts, and [`summary::sentence`]; lines end with `\n`.
 ///
 /// Four significant digits; `exact` is the variance without chance, or the scene's own answer; `ratio` the measured one
-/// over it with its 95 % interval, and where there is no such interval `± 95 %` is the longer arm of the variance's own, as
-/// a share of the variance; `–` stands for no value.
+/// over it with its 95 % interval, and where there is no exact one the longer arm of the variance's own interval, as a
+/// share of the variance (`± 4.0 %`); `–` stands for no value.
 pub fn text(document: &Document, detail: Detail) -> String {
     let receivers = document.receivers();
     let tables = tables(receivers, detail);
@@ -63,7 +64,8 @@ fn tables(receivers: &[ReceiverResult], detail: Detail) -> String {
     let shown = receivers.iter().map(|receiver| (receiver, shown_rows(receiver, detail)));
     let shown: Vec<(&ReceiverResult, Vec<&Row>)> = shown.collect();
     let cells = |longest| shown.iter().flat_map(move |(receiver, rows)| named_once(receiver, rows, longest));
-    let lines = fitting(|longest| layout(&HEADER, cells(longest), 2));
+    let names = receivers.iter().flat_map(|receiver| &receiver.rows).map(|row| row.strategy.chars().count());
+    let lines = fitting(names.max().unwrap_or(0), |longest| layout(&HEADER, cells(longest), 2));
     let (header, mut rest) = lines.split_at(lines.len().min(2));
     let header = header.join("\n");
     let blocks = shown.iter().map(|(receiver, rows)| {

@@ -155,6 +155,13 @@ fn few_steps_find_both_crossings() {
     crosses(&receiver(&square("few"), &line), expected, 9);
 }
 
+/// Below the receiver the square gives nothing; the crossings lie between its plane and the first step above it.
+#[test]
+fn crossings_just_beyond_the_edge_of_the_light_are_found() {
+    let line = format!("--at 0,0,0,0,1,0 --sweep light.y=-1:1:5 {BASIC}");
+    crosses(&receiver(&square("edge"), &line), HEIGHTS[0].1, 9);
+}
+
 /// Only the ratio of side and height counts; from the height 1 the scale is side over height.
 #[test]
 fn a_growing_square_crosses_where_it_must() {

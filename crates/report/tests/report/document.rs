@@ -144,7 +144,14 @@ fn csv_numbers_read_back_to_the_same_bits() {
         assert_eq!([cell(i + 1, "rays"), cell(i + 1, "seconds")], [row.rays, row.seconds]);
         assert_eq!(Some(cell(i + 1, "efficiency")), row.efficiency);
         assert_eq!(cell(i + 1, "setup_seconds"), receiver.setup_seconds);
-        assert!(cell(i + 1, "variance_exact").is_nan());
+        let same = |name: &str, value: Option<f64>| match value {
+            Some(value) => assert_eq!(cell(i + 1, name), value),
+            None => assert!(cell(i + 1, name).is_nan(), "{name}"),
+        };
+        same("variance_exact", row.variance_exact);
+        same("variance_ratio", row.variance_ratio);
+        same("variance_ratio_lo", row.variance_ratio_interval.map(|[lo, _]| lo));
+        same("variance_ratio_hi", row.variance_ratio_interval.map(|[_, hi]| hi));
     }
     assert_eq!(cell(1, "irradiance_known"), receivers[0].known.as_ref().unwrap().irradiance.luminance);
     assert!(cell(7, "irradiance_known").is_nan() && cell(7, "irradiance_exact").is_nan());

@@ -27,7 +27,7 @@ fn parameter(name: &str) -> Result<Parameter, String> {
     Parameter::named(name).ok_or_else(|| {
         let names = Parameter::ALL.map(Parameter::name);
         let likeness = |other: &&&str| strsim::jaro_winkler(other, name);
-        let nearest = names.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or(&names[0]);
+        let nearest = names.iter().rev().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or(&names[0]);
         format!("there is no parameter \"{name}\"; did you mean \"{nearest}\"? (all: {})", names.join(", "))
     })
 }

@@ -37,9 +37,9 @@ pub fn missed_by_area(sight: &Sight) -> (f64, f64) {
     let seen: f64 = sight.seen.iter().map(|seen| seen.visible_area).sum();
     let error: f64 =
         sight.seen.iter().filter(|seen| seen.blocked || seen.clipped).map(|seen| seen.moments.area_error).sum();
-    let rest = area - seen;
+    let rest = not_below_zero(area - seen);
     let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64 * area;
-    let whole = sight.seen.iter().all(|seen| !seen.blocked && !seen.clipped) && rest.abs() <= rounding;
+    let whole = sight.seen.iter().all(|seen| !seen.blocked && !seen.clipped) && rest <= rounding;
     if whole { (0.0, 0.0) } else { (rest / area, (error + rounding) / area) }
 }
 
@@ -49,7 +49,12 @@ pub fn missed_by_hemisphere(sight: &Sight) -> (f64, f64) {
         .seen
         .iter()
         .fold((0.0, 0.0), |(m10, error), seen| (m10 + seen.moments.m10, error + seen.moments.errors[1]));
-    (1.0 - m10 / PI, error / PI + 4.0 * EPSILON)
+    (not_below_zero(1.0 - m10 / PI), error / PI + 4.0 * EPSILON)
+}
+
+/// A probability as a difference: what lies below zero is rounding.
+fn not_below_zero(difference: f64) -> f64 {
+    if difference < 0.0 { 0.0 } else { difference }
 }
 
 /// One sample from A p_h + (1 − A) p_a: w = L π ρ/(1 − A + A ρ).
@@ -136,7 +141,7 @@ impl Optimal {
         for part in &self.law.parts {
             outcome.add_residual(part, PI * radiance(part.seen) - alpha_h, alpha_a);
         }
-        outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.sqrt());
+        outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
         outcome
     }
 }

@@ -4,18 +4,19 @@ use glam::DVec3;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_exact::{Error, Facing, Light, Sight};
 
-use crate::support::{Lamp, Random, Scene, Triangle, ceiling, coplanar, lamp};
+use crate::support::{Lamp, Random, Scene, Triangle, ceiling, coplanar, lamp, parallelogram};
 
 /// Values are finite, not negative beyond their bounds, and at most what is open.
 fn sane(sight: &Sight, what: &str) {
     let (e, open) = (sight.irradiance(), sight.irradiance_unoccluded());
-    assert!(e.luminance.is_finite() && e.error_bound.is_finite(), "{what}: {e:?}");
+    assert!(e.luminance.is_finite() && e.error_bound.is_finite() && e.error_bound >= 0.0, "{what}: {e:?}");
     assert!(e.luminance >= -e.error_bound, "{what}: {e:?}");
     assert!(e.luminance <= open.luminance + e.error_bound + open.error_bound, "{what}: {e:?} of {open:?}");
     for strategy in Strategy::with_exact_variance() {
         match sight.variance(strategy) {
             Ok(v) => {
-                assert!(v.luminance.is_finite() && v.error_bound.is_finite(), "{what}: {strategy}: {v:?}");
+                let bounded = v.error_bound.is_finite() && v.error_bound >= 0.0;
+                assert!(v.luminance.is_finite() && bounded, "{what}: {strategy}: {v:?}");
                 assert!(v.luminance >= -v.error_bound, "{what}: {strategy}: {v:?}");
             }
             Err(Error::NotConverged { .. }) => {}
@@ -153,5 +154,44 @@ fn no_lights_no_light() {
     assert_eq!(sight.irradiance().luminance, 0.0);
     for (strategy, value) in sight.variances(&Strategy::with_exact_variance()) {
         assert_eq!(value.unwrap().luminance, 0.0, "{strategy}");
+    }
+}
+
+/// Triangles so small, far and near the horizon that their edge sums keep no digit, nor their sign.
+#[test]
+fn specks_at_the_horizon() {
+    let mut random = Random(23);
+    for k in 0..4000 {
+        let size = 10.0_f64.powf(random.between(-9.0, -3.0));
+        let height = size * 10.0_f64.powf(random.between(-6.0, 0.0));
+        let at = DVec3::new(random.between(1.0, 20.0), random.between(-20.0, 20.0), height);
+        let corner =
+            |random: &mut Random| at + random.point(size) * DVec3::new(1.0, 1.0, random.unit() * height / size);
+        let specks = (0..3).map(|_| [0; 3].map(|_| corner(&mut random))).collect();
+        let scene = Scene::of(vec![Lamp { triangles: specks, radiance: [1.0, 10.0, 0.1], two_sided: true }]);
+        if let Ok(sight) = scene.try_sight(DVec3::ZERO, DVec3::Z) {
+            sane(&sight, &format!("speck {k}"));
+        }
+    }
+}
+
+/// Inside a box that emits everywhere no direction misses: what is left of 1 is rounding, of either sign.
+#[test]
+fn all_round() {
+    let mut random = Random(24);
+    let size = DVec3::new(1.0, 0.75, 0.5);
+    let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
+        let (u, v) = axis.any_orthonormal_pair();
+        let [u, v] = [u, v].map(|side| side * side.abs().dot(size));
+        let wall = |corner: DVec3, u: DVec3, v: DVec3| parallelogram(corner - u - v, 2.0 * u, 2.0 * v);
+        let at = axis * axis.dot(size);
+        [wall(-at, u, v), wall(at, v, u)]
+    });
+    let scene = Scene::of(vec![lamp(sides.flatten().collect(), 1.0)]);
+    for k in 0..60 {
+        let x = (random.point(1.0) * size) * if k % 2 == 0 { DVec3::ONE } else { DVec3::new(1.0, 1.0, 0.99) };
+        let sight = scene.sight(x, random.point(1.0));
+        assert!((sight.irradiance().luminance - std::f64::consts::PI).abs() < 1e-12, "{k}: {:?}", sight.irradiance());
+        sane(&sight, &format!("place {k}"));
     }
 }

@@ -174,7 +174,7 @@ pub struct ExactArgs {
 pub struct CompareArgs {
     /// A glTF scene (.gltf or .glb)
     pub scene: PathBuf,
-    /// Strategies, formulation/density[@selection], separated by commas
+    /// Strategies by name, separated by commas
     #[arg(long, alias = "strategy", default_value_t = StrategyList::default(), value_name = "LIST")]
     pub strategies: StrategyList,
     /// Samplers, separated by commas

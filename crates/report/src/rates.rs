@@ -10,7 +10,7 @@ use crate::ranking::{estimators, full_name};
 /// Header of the table of rates.
 pub(crate) const HEADER: [&str; 4] = ["strategy", "slope", "95 % interval", "regime"];
 
-/// Cells of the table of rates: strategy, slope, interval, regimes; nothing where no rate was fitted.
+/// Cells of the table of rates: strategy, slope, interval, regimes; nothing where no rate was fitted at all.
 ///
 /// The slope is the mean over the K receivers that have one, and its interval has half the width `√(Σ s_k²)/K`, `s_k`
 /// being half the width of the receiver's own interval: receivers are independent. The regimes are counted.
@@ -20,8 +20,12 @@ pub(crate) fn rows(receivers: &[ReceiverResult]) -> Vec<[String; 4]> {
         let rates = receivers.iter().flat_map(|receiver| &receiver.rates);
         rates.filter(|rate| rate.strategy == strategy && rate.sampler == sampler).collect()
     };
-    let rated = estimators.iter().map(|estimator| (estimator, of(estimator))).filter(|(_, rates)| !rates.is_empty());
-    rated.map(|(estimator, rates)| row(full_name(&estimators, *estimator), &rates)).collect()
+    let rated = estimators.iter().map(|estimator| (estimator, of(estimator)));
+    let rated: Vec<_> = rated.filter(|(_, rates)| !rates.is_empty()).collect();
+    if !rated.iter().any(|(_, rates)| rates.iter().any(|rate| rate.slope.is_some())) {
+        return Vec::new();
+    }
+    rated.into_iter().map(|(estimator, rates)| row(full_name(&estimators, *estimator), &rates)).collect()
 }
 
 fn row(name: String, rates: &[&Rate]) -> [String; 4] {

@@ -1,6 +1,7 @@
 //! One sentence to remember: which strategy had the lowest variance, by what factor, and at what cost.
 
 use crate::document::Document;
+use crate::layout::plain;
 use crate::number::{count, duration, percent, plus_minus, rounded, significant};
 use crate::ranking::{Pooled, Ranking, Unranked};
 
@@ -99,7 +100,7 @@ fn times(low: &Pooled, high: &Pooled) -> String {
 /// Where the figures hold: `(geometric mean over 7 of 9 receivers at N = 1024; ± is 95 %)`.
 fn place(ranking: &Ranking, with_uncertainty: bool) -> String {
     let over = match (&ranking.receivers[..], ranking.of) {
-        ([name], 1) => format!("at {name}, N = {}", ranking.samples),
+        ([name], 1) => format!("at {}, N = {}", plain(name), ranking.samples),
         (pooled, all) if pooled.len() == all => {
             format!("geometric mean over {all} receivers at N = {}", ranking.samples)
         }

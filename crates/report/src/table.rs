@@ -51,7 +51,8 @@ fn title(document: &Document) -> String {
     let mut replicates: Vec<u64> = receivers.iter().flat_map(|r| &r.rows).map(|row| row.replicates).collect();
     replicates.dedup();
     let replicates = match replicates[..] {
-        [one] => format!(" · {one} replicates"),
+        [1] => " · 1 replicate".to_owned(),
+        [many] => format!(" · {many} replicates"),
         _ => String::new(),
     };
     let plural = if receivers.len() == 1 { "" } else { "s" };

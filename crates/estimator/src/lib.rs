@@ -10,6 +10,7 @@ pub mod formulation;
 pub mod lights;
 pub mod measure;
 pub mod moments;
+pub mod nearest;
 pub mod query;
 pub mod rgb;
 pub mod sampler;

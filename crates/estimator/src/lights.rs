@@ -37,13 +37,6 @@ impl Lights {
         self.radiance[target as usize]
     }
 
-    /// Whether all light has one colour: the targets' radiances are multiples of each other.
-    pub fn one_colour(&self) -> bool {
-        let wide = |rgb: &[f32; 3]| rgb.map(f64::from);
-        let parallel = |[a, b, c]: [f64; 3], [x, y, z]: [f64; 3]| a * y == b * x && b * z == c * y && a * z == c * x;
-        self.radiance.windows(2).all(|pair| parallel(wide(&pair[0]), wide(&pair[1])))
-    }
-
     /// Area of each target in square metres.
     pub fn areas(&self) -> &[f64] {
         &self.area

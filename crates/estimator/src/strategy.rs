@@ -10,6 +10,7 @@ use crate::density::{CosineHemisphere, Density, OnLights, TowardLights, UniformH
 use crate::estimator::Estimator;
 use crate::formulation::{Area, Formulation, Hemisphere};
 use crate::lights::Lights;
+use crate::nearest::nearest;
 use crate::query::Query;
 use crate::selection::{Picker, Selection};
 
@@ -92,31 +93,6 @@ impl Strategy {
         }
     }
 
-    /// One line on what it does.
-    pub fn description(self) -> &'static str {
-        match self {
-            Self::HemisphereUniform => "directions uniform over the hemisphere, p = 1/2π",
-            Self::HemisphereCosine => "directions by the cosine, p = cosθ/π",
-            Self::HemisphereTowardLights(_) => {
-                "directions toward points of area/uniform: its density, the other integral"
-            }
-            Self::Area(draw, Selection::Together) => match draw {
-                Draw::Uniform => "points uniform over the area of all lights, p = 1/A",
-                Draw::SolidAngle => "points uniform in the lights' solid angle",
-                Draw::ProjectedSolidAngle => "points uniform in the lights' projected solid angle",
-            },
-            Self::Area(_, Selection::Uniform) => "a light first, each alike, then a point on it",
-            Self::Area(_, Selection::Power) => "a light first, by its power, then a point on it",
-            Self::Area(_, Selection::Contribution) => {
-                "a light first, by what it would give unoccluded, then a point on it"
-            }
-            Self::Mis(Weighting::Balance) => "a point and a direction, weighted by the balance heuristic",
-            Self::Mis(Weighting::Power) => "a point and a direction, weighted by the power heuristic",
-            Self::Mis(Weighting::Optimal) => "a point and a direction, with the weights of least variance",
-            Self::Mixture(_) => "a direction with probability A, else a point",
-        }
-    }
-
     /// Builds what the strategy needs once per scene. The scene must have a light.
     ///
     /// # Errors
@@ -188,11 +164,7 @@ pub struct NotSampled {
 }
 
 fn sampled() -> String {
-    joined(&Strategy::all())
-}
-
-fn joined(strategies: &[Strategy]) -> String {
-    strategies.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    Strategy::all().iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 impl FromStr for Strategy {
@@ -203,12 +175,11 @@ impl FromStr for Strategy {
         let mixture =
             || Some(Self::Mixture(name.strip_prefix(MIXTURE)?.parse().ok().filter(|a| (0.0..=1.0).contains(a))?));
         all.iter().copied().find(|strategy| strategy.to_string() == name).or_else(mixture).ok_or_else(|| {
-            let likeness = |strategy: &&Self| strsim::jaro_winkler(&strategy.to_string(), name);
-            let nearest = all.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+            let names: Vec<String> = all.iter().map(ToString::to_string).collect();
             UnknownStrategy {
                 name: name.to_owned(),
-                nearest: nearest.map(ToString::to_string).unwrap_or_default(),
-                all: joined(&all),
+                nearest: nearest(name, &names).unwrap_or_default(),
+                all: names.join(", "),
             }
         })
     }

@@ -72,7 +72,8 @@ fn won(ranking: &Ranking, best: &[Pooled], others: &[Pooled]) -> String {
     let factors = list(&compared.into_iter().map(lower).collect::<Vec<_>>());
     let known = best[0].half_width.is_some() && (next.half_width.is_some() || worst.half_width.is_some());
     let (place, cost) = (place(ranking, known), relative_cost(best, next));
-    format!("{} had the lowest variance{equal}: {factors} {place}, at {cost}", list(&names(best)))
+    let lowest = if known { "lowest" } else { "lowest measured" };
+    format!("{} had the {lowest} variance{equal}: {factors} {place}, at {cost}", list(&names(best)))
 }
 
 /// Names those that never met a light.
@@ -88,7 +89,7 @@ fn times(low: &Pooled, high: &Pooled) -> String {
     let (log_factor, half_width) = low.log_factor(high);
     let factor = log_factor.exp();
     match half_width {
-        None => format!("about {} times", rounded(factor, 2)),
+        None => format!("about {} times (no interval)", rounded(factor, 2)),
         Some(half) if half < 0.3 => format!("{} times", plus_minus(factor, factor * half)),
         Some(half) => {
             let [lo, hi] = [-half, half].map(|side| rounded((log_factor + side).exp(), 2));

@@ -5,6 +5,7 @@ use glam::DVec3;
 use twoforms_comparison::place::{Place, Quantity};
 use twoforms_comparison::viewpoint;
 use twoforms_comparison::world::{Seen, World};
+use twoforms_estimator::nearest::nearest;
 use twoforms_scene::Camera;
 
 use crate::args::{At, CameraArgs, ImageSize, Pair, PlacesArgs, QuantityArg, ReceiverArgs, RunArgs};
@@ -190,8 +191,7 @@ fn short(coordinate: f64) -> String {
 
 /// Nothing has this name: the nearest that there is, or else what to pass.
 fn no_such(what: &str, name: &str, names: &[&str], otherwise: &str) -> anyhow::Error {
-    let likeness = |other: &&&str| strsim::jaro_winkler(other, name);
-    match names.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
+    match nearest(name, names) {
         Some(nearest) => {
             let all = names.join(", ");
             anyhow!("the scene has no {what} \"{name}\"; did you mean \"{nearest}\"? (all: {all})")

@@ -142,7 +142,7 @@ fn moments(samples: &[[f64; 3]], channel: impl Fn([f64; 3]) -> f64) -> (f64, f64
 
 #[test]
 fn random_scenes_agree_with_monte_carlo() {
-    let mut random = Random(2024);
+    let mut random = Random::new(2024);
     let (mut wrong, mut compared) = (Vec::new(), 0);
     for k in 0..30 {
         let scene = scene(&mut random);

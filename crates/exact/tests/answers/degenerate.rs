@@ -42,7 +42,7 @@ fn overlap(lamps: &[Lamp]) -> bool {
 
 #[test]
 fn triangles_on_a_coarse_grid() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let mut answered = 0;
     for k in 0..3000 {
         let mut triangle = |_| [0; 3].map(|_| grid_point(&mut random));
@@ -72,7 +72,7 @@ fn triangles_on_a_coarse_grid() {
 
 #[test]
 fn receivers_close_to_the_plane_of_a_light() {
-    let mut random = Random(12);
+    let mut random = Random::new(12);
     for k in 0..300 {
         let height = [1e-2, 1e-4, 1e-6, 2e-8][k % 4];
         let x = DVec3::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), -height);
@@ -86,7 +86,7 @@ fn receivers_close_to_the_plane_of_a_light() {
 
 #[test]
 fn hundreds_of_needles() {
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     let mut needle = |_| {
         let (a, b) = (random.point(0.7), random.point(0.7));
         [a, b, a + random.point(1e-3)].map(|v| v.with_z(0.4 + 0.3 * v.z))
@@ -160,7 +160,7 @@ fn no_lights_no_light() {
 /// Triangles so small, far and near the horizon that their edge sums keep no digit, nor their sign.
 #[test]
 fn specks_at_the_horizon() {
-    let mut random = Random(23);
+    let mut random = Random::new(23);
     for k in 0..4000 {
         let size = 10.0_f64.powf(random.between(-9.0, -3.0));
         let height = size * 10.0_f64.powf(random.between(-6.0, 0.0));
@@ -178,7 +178,7 @@ fn specks_at_the_horizon() {
 /// Inside a box that emits everywhere no direction misses: what is left of 1 is rounding, of either sign.
 #[test]
 fn all_round() {
-    let mut random = Random(24);
+    let mut random = Random::new(24);
     let size = DVec3::new(1.0, 0.75, 0.5);
     let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
         let (u, v) = axis.any_orthonormal_pair();

@@ -51,7 +51,7 @@ fn strata_across_targets() {
         let normal = (c[1] - c[0]).cross(c[2] - c[0]).normalize();
         facing[target].radiance[0] * total * y.z * normal.dot(y).abs() / y.length_squared().powi(2)
     };
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     let count = 20_000;
     let estimates: Vec<f64> = (0..count)
         .map(|_| {

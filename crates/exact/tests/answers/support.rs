@@ -1,6 +1,8 @@
 //! Scenes for the tests, and their conversion to what one receiver meets.
 
 use glam::DVec3;
+use rand::RngExt;
+use rand_philox::Philox;
 use twoforms_exact::{Error, Facing, Light, Sight};
 
 pub type Triangle = [DVec3; 3];
@@ -36,19 +38,19 @@ pub fn ceiling(centre: DVec3, width: f64, depth: f64) -> Vec<Triangle> {
 }
 
 /// Seeded random numbers (split mix of 64 bits; Steele, Lea and Flood 2014).
-pub struct Random(pub u64);
+pub struct Random(Philox);
 
 impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(Philox::from_u64_seed(seed))
+    }
+
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.random()
     }
 
     pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        self.0.random()
     }
 
     pub fn between(&mut self, low: f64, high: f64) -> f64 {

@@ -33,7 +33,7 @@ fn agree(one: &Sight, other: &Sight, tolerance: f64, what: &str) {
 
 #[test]
 fn turning_the_scene() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for _ in 0..20 {
         let scene = room(&mut random);
         let turn = DQuat::from_axis_angle(random.point(1.0).normalize(), random.between(0.0, 6.0));
@@ -48,7 +48,7 @@ fn turning_the_scene() {
 
 #[test]
 fn cutting_a_light_in_two() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for _ in 0..20 {
         let scene = room(&mut random);
         let mut cut = scene.clone();
@@ -61,7 +61,7 @@ fn cutting_a_light_in_two() {
 
 #[test]
 fn blockers_that_hide_nothing_and_hide_again() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for _ in 0..20 {
         let scene = room(&mut random);
         let mut more = scene.clone();
@@ -75,7 +75,7 @@ fn blockers_that_hide_nothing_and_hide_again() {
 
 #[test]
 fn blockers_cut_in_two() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     for _ in 0..20 {
         let scene = room(&mut random);
         let halves = |t: &Triangle| [[t[0], t[1], 0.5 * (t[1] + t[2])], [t[0], 0.5 * (t[1] + t[2]), t[2]]];
@@ -102,7 +102,7 @@ fn radiance_scales() {
 
 #[test]
 fn toward_lights_is_area() {
-    let sight = room(&mut Random(5)).sight(DVec3::ZERO, DVec3::Z);
+    let sight = room(&mut Random::new(5)).sight(DVec3::ZERO, DVec3::Z);
     for selection in ["", "@uniform", "@power", "@contribution"] {
         let value = |name: &str| sight.variance(format!("{name}{selection}").parse().unwrap()).unwrap();
         assert_eq!(value("hemisphere/toward-lights"), value("area/uniform"));

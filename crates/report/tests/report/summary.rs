@@ -47,7 +47,7 @@ fn a_wide_uncertainty_is_an_interval_and_none_is_said() {
     assert!(wide.contains("10 (5.0 to 20) times lower than b (at floor, N = 16; ± is 95 %)"), "{wide}");
     rows[1].variance_interval = None;
     let unknown = of(vec![receiver("floor", rows)]);
-    assert!(unknown.contains("about 10 times lower than b (at floor, N = 16), at"), "{unknown}");
+    assert!(unknown.contains("about 10 times (no interval) lower than b (at floor, N = 16), at"), "{unknown}");
 }
 
 #[test]

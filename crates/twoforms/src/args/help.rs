@@ -20,6 +20,7 @@ pub(super) const EXACT: &str = "\
 Examples:
   twoforms exact scenes/cornell-box.gltf
   twoforms exact scenes/square-light.gltf --receiver near --strategies area/uniform,hemisphere/cosine
+  twoforms exact scenes/square-light.gltf --receiver near --sweep receiver.y=-3:0.09:30
   twoforms exact scenes/cornell-box.gltf --grid 32,32 --format csv -o grid.csv";
 
 pub(super) const RENDER: &str = "\
@@ -45,7 +46,8 @@ pub(super) fn with_strategies(examples: &str) -> String {
 }
 
 const NAMING: &str = "\
-Strategies are named formulation/density[@selection]. hemisphere/… draws directions Ψ at x and finds y = vp(x, Ψ);
-area/… draws points y on the lights and asks for V(x, y). The density says how they are drawn; @selection picks a
+Strategies are named formulation/density[@selection]. hemisphere/… draws directions Ψ at x and finds y = vp(x, Ψ); \
+area/… draws points y on the lights and asks for V(x, y). The density says how they are drawn; @selection picks a \
 light first. hemisphere/toward-lights draws as area/uniform does: one density, both formulations.
+
 ";

@@ -141,6 +141,18 @@ fn share(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "needs a number between 0 and 1, such as 0.01".to_owned())
 }
 
+/// How results are printed, and where.
+#[derive(Debug, ClapArgs)]
+#[command(next_help_heading = "Output")]
+pub struct PrintArgs {
+    /// How to print results on standard output
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub format: Format,
+    /// Write what would be printed to this file instead
+    #[arg(short, long, alias = "outfile", value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
 /// `exact`.
 #[derive(Debug, ClapArgs)]
 #[command(after_help = help::EXACT)]
@@ -160,12 +172,9 @@ pub struct ExactArgs {
     /// How to run.
     #[command(flatten)]
     pub run: RunArgs,
-    /// How to print results on standard output
-    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
-    pub format: Format,
-    /// Write what would be printed to this file instead
-    #[arg(short, long, alias = "outfile", value_name = "FILE", help_heading = "Output")]
-    pub output: Option<PathBuf>,
+    /// How to print.
+    #[command(flatten)]
+    pub print: PrintArgs,
 }
 
 /// `compare`.
@@ -201,12 +210,9 @@ pub struct CompareArgs {
     /// How to run.
     #[command(flatten)]
     pub run: RunArgs,
-    /// How to print results on standard output
-    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
-    pub format: Format,
-    /// Write what would be printed to this file instead
-    #[arg(short, long, alias = "outfile", value_name = "FILE", help_heading = "Output")]
-    pub output: Option<PathBuf>,
+    /// How to print.
+    #[command(flatten)]
+    pub print: PrintArgs,
     /// Also write compare.json and compare.csv into this folder
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! Sweeps: `PARAM=FROM:TO[:log]:STEPS`.
 
 use twoforms_comparison::sweep::{Parameter, Spacing, Sweep};
+use twoforms_estimator::nearest::nearest;
 
 const FORM: &str = "the form is PARAM=FROM:TO[:log]:STEPS, as in receiver.y=0.1:10:log:25";
 
@@ -26,8 +27,7 @@ fn number(text: &str) -> Result<f64, String> {
 fn parameter(name: &str) -> Result<Parameter, String> {
     Parameter::named(name).ok_or_else(|| {
         let names = Parameter::ALL.map(Parameter::name);
-        let likeness = |other: &&&str| strsim::jaro_winkler(other, name);
-        let nearest = names.iter().rev().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or(&names[0]);
+        let nearest = nearest(name, &names).unwrap_or_default();
         format!("there is no parameter \"{name}\"; did you mean \"{nearest}\"? (all: {})", names.join(", "))
     })
 }

@@ -18,7 +18,7 @@ pub fn run(args: &CompareArgs) -> Result<Found> {
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
     let places = places::places(&world, &args.places, &args.run)?;
-    let destination = Destination::new(args.format, args.output.as_deref(), args.out.as_deref())?;
+    let destination = Destination::new(args.print.format, args.print.output.as_deref(), args.out.as_deref())?;
     let experiment = Experiment {
         strategies: args.strategies.0.clone(),
         samplers: args.sampler.0.clone(),

@@ -17,7 +17,7 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
     let places = places::places(&world, &args.places, &args.run)?;
-    if let Some(path) = &args.output {
+    if let Some(path) = &args.print.output {
         file::check(path)?;
     }
     let strategies = args.strategies.as_ref().map(|list| list.0.clone());
@@ -32,7 +32,7 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     let quantity = args.places.quantity.name();
     let provenance = run::provenance(&world.scene, &args.run, started).with("quantity", quantity);
     let document = ExactDocument::new(provenance, results)?;
-    Ok(output::write_to(args.output.as_deref(), |out| print(&document, args.format, out))?)
+    Ok(output::write_to(args.print.output.as_deref(), |out| print(&document, args.print.format, out))?)
 }
 
 fn print(document: &ExactDocument, format: Format, out: &mut dyn std::io::Write) -> Result<(), ReportError> {

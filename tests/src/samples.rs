@@ -7,7 +7,7 @@ use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::Rgb;
-use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::sampler::{Sampler, Stream};
 use twoforms_estimator::strategy::{Kernel, Strategy};
 use twoforms_estimator::xi::{Draws, Key, Xi};
 use twoforms_geometry::view::{Effort, View};
@@ -35,7 +35,7 @@ impl Samples {
 
     /// ξ of one of them.
     pub fn xi(&self, index: u32) -> Xi<f32> {
-        self.sampler.xi(&self.draws, index)
+        Stream { sampler: self.sampler, draws: self.draws }.xi(index)
     }
 }
 

@@ -7,7 +7,7 @@ use twoforms_estimator::estimator::{Estimator, NotFinite};
 use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
-use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::sampler::{Sampler, Stream};
 use twoforms_estimator::strategy::{Kernel, NotSampled, Prepared, Strategy};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
@@ -184,7 +184,10 @@ impl<'a> Painter<'a> {
 
     fn camera_sample(&self, x: u32, y: u32, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
         let [dx, dy] = match self.rendering.filter {
-            PixelFilter::Box => Draws { key: self.camera_key, stream }.independent(0).uv().map(f64::from),
+            PixelFilter::Box => Stream { sampler: Sampler::Independent, draws: Draws { key: self.camera_key, stream } }
+                .xi(0)
+                .uv()
+                .map(f64::from),
             PixelFilter::Point => [0.5; 2],
         };
         match self.look(f64::from(x) + dx, f64::from(y) + dy) {
@@ -244,7 +247,7 @@ impl Kernel for Secondary {
     type Output = Result<([f64; 3], u64), NotFinite>;
 
     fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        let estimate = estimator.secondary(self.n, |index| self.sampler.xi(&self.draws, index))?;
+        let estimate = estimator.secondary(self.n, Stream { sampler: self.sampler, draws: self.draws })?;
         Ok((estimate.value, estimate.rays))
     }
 }

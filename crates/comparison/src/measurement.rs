@@ -8,6 +8,7 @@ use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::luminance;
+use twoforms_estimator::sampler::Stream;
 use twoforms_estimator::strategy::Kernel;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::view::View;
@@ -93,7 +94,7 @@ impl Kernel for Replicates<'_> {
         for replicate in self.range {
             let draws = Draws { key: self.key, stream: [samples, replicate] };
             let estimate = estimator
-                .secondary(samples, |index| sampler.xi(&draws, index))
+                .secondary(samples, Stream { sampler, draws })
                 .map_err(|not_finite| (replicate, not_finite))?;
             measurement.push(&estimate, self.emission);
         }

@@ -1,16 +1,19 @@
 //! Estimators: a formulation and a density of one measure.
 
+use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::{Mask, Real};
+use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::view::View;
+use twoforms_geometry::wide::{EIGHT, Wide};
 
 use crate::density::Density;
 use crate::formulation::Formulation;
 use crate::measure::Sample;
 use crate::moments::Moments;
 use crate::query::Query;
-use crate::rgb::{Rgb, luminance};
-use crate::xi::Xi;
+use crate::rgb::{LUMINANCE, Rgb};
+use crate::sampler::Stream;
+use crate::xi::{DIMENSIONS, Words, Xi};
 
 /// An estimator of the light that x receives, in the lecture's words: primary with one sample, secondary with the mean of N.
 #[derive(Clone, Copy)]
@@ -72,11 +75,11 @@ pub struct NotFinite {
     /// Its value, RGB.
     pub value: [f32; 3],
     /// ξ.
-    pub words: [u32; 4],
+    pub words: [u32; DIMENSIONS],
 }
 
 /// Samples evaluated before their moments are merged.
-const BATCH: usize = 64;
+const BATCH: usize = 128;
 
 impl<'a, F: Formulation, D: Density<F::Measure>> Estimator<'a, F, D> {
     /// The estimator of `query` at x by formulation F with points drawn from `density`.
@@ -89,7 +92,7 @@ impl<'a, F: Formulation, D: Density<F::Measure>> Estimator<'a, F, D> {
     pub fn primary<R: Real>(&self, xi: Xi<R>) -> (Rgb<R>, R::Mask) {
         let (Sample { at, pdf }, some) = self.density.sample(self.view, xi).parts();
         if !some.any() {
-            return (Rgb([R::zero(); 3]), some);
+            return (Rgb::splat([0.0; 3]), some);
         }
         let worth = F::integrand(self.view, self.query, &at) / pdf;
         (worth.or_black(some), some & F::asks(&at))
@@ -100,40 +103,125 @@ impl<'a, F: Formulation, D: Density<F::Measure>> Estimator<'a, F, D> {
         self.density.sample(self.view, xi)
     }
 
-    /// ⟨I⟩_sec = (1/N) Σ f(x_i)/p(x_i), with ξ_i from `xi`.
+    /// ⟨I⟩_sec = (1/N) Σ f(x_i)/p(x_i), with ξ_i from `stream`, by the best instructions of this machine.
     ///
     /// # Errors
     /// When a sample is not finite.
-    pub fn secondary(&self, n: u32, xi: impl Fn(u32) -> Xi<f32>) -> Result<Estimate, NotFinite> {
+    pub fn secondary(&self, n: u32, stream: Stream) -> Result<Estimate, NotFinite> {
+        self.secondary_by(Instructions::best(), n, stream)
+    }
+
+    /// The same estimate by other instructions. The bits do not depend on them.
+    ///
+    /// # Errors
+    /// When a sample is not finite.
+    pub fn secondary_by(&self, instructions: Instructions, n: u32, stream: Stream) -> Result<Estimate, NotFinite> {
+        instructions.run(Secondary { estimator: self, n, stream })
+    }
+}
+
+/// The secondary estimator with its numbers yet to be chosen.
+struct Secondary<'e, 'a, F, D> {
+    estimator: &'e Estimator<'a, F, D>,
+    n: u32,
+    stream: Stream,
+}
+
+impl<F: Formulation, D: Density<F::Measure>> Kernel for Secondary<'_, '_, F, D> {
+    type Output = Result<Estimate, NotFinite>;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Self::Output {
         let mut estimate = Estimate::default();
-        let mut total = [0.0; 3];
-        let mut batch = [0.0; BATCH];
-        for start in (0..n).step_by(BATCH) {
-            let length = BATCH.min((n - start) as usize);
-            for (offset, slot) in (0..).zip(&mut batch[..length]) {
-                let xi = xi(start + offset);
-                let (Rgb(worth), ray) = self.primary::<f32>(xi);
-                let wide = worth.map(f64::from);
-                *slot = luminance(wide);
-                if !slot.is_finite() {
-                    return Err(NotFinite { index: start + offset, value: worth, words: xi.words() });
-                }
-                total = std::array::from_fn(|c| total[c] + wide[c]);
-                estimate.rays += u64::from(ray);
+        for start in (0..self.n).step_by(BATCH) {
+            let length = BATCH.min((self.n - start) as usize);
+            let mut batch = Batch::new(length);
+            self.stream.fill::<R, BATCH>(start, length, &mut batch.words);
+            for offset in (0..length).step_by(R::LANES) {
+                self.evaluate::<R>(offset, &mut batch);
             }
-            estimate.count(&batch[..length]);
+            estimate.add::<R::Wide>(&batch).map_err(|offset| batch.not_finite(start, offset))?;
         }
-        estimate.value = total.map(|sum| sum / f64::from(n));
+        estimate.value = estimate.value.map(|sum| sum / f64::from(self.n));
         Ok(estimate)
     }
 }
 
-impl Estimate {
-    fn count(&mut self, luminances: &[f64]) {
-        self.luminance = self.luminance + Moments::of(luminances);
-        for &worth in luminances.iter().filter(|&&worth| worth != 0.0) {
-            self.hits += 1;
-            self.range = self.range.with(Range { low: worth, high: worth });
+impl<F: Formulation, D: Density<F::Measure>> Secondary<'_, '_, F, D> {
+    /// Samples that lie side by side, from `offset` of the batch on.
+    #[inline(always)]
+    fn evaluate<R: Real>(&self, offset: usize, batch: &mut Batch) {
+        let (Rgb(worth), ray) = self.estimator.primary::<R>(Xi::load(&batch.words, offset));
+        let live = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
+        let Rgb(worth) = Rgb(worth).or_black(live);
+        for c in 0..3 {
+            worth[c].store(&mut batch.worth[c][offset..]);
         }
+        batch.rays += u64::from((ray & live).count());
     }
+}
+
+/// Some samples: their ξ, what they are worth, RGB, and the rays they asked for.
+struct Batch {
+    words: Words<BATCH>,
+    worth: [[f32; BATCH]; 3],
+    length: usize,
+    rays: u64,
+}
+
+impl Batch {
+    #[inline(always)]
+    fn new(length: usize) -> Self {
+        Self { words: [[0; BATCH]; DIMENSIONS], worth: [[0.0; BATCH]; 3], length, rays: 0 }
+    }
+
+    #[cold]
+    fn not_finite(&self, start: u32, offset: usize) -> NotFinite {
+        let words = Xi::<f32>::load(&self.words, offset).words();
+        NotFinite { index: start + offset as u32, value: self.worth.map(|channel| channel[offset]), words }
+    }
+
+    #[cold]
+    fn first_not_finite(&self) -> usize {
+        let broken = |k: &usize| self.worth.iter().any(|channel| !channel[*k].is_finite());
+        (0..self.length).find(broken).unwrap_or_default()
+    }
+}
+
+impl Estimate {
+    /// Adds a batch to the sums; the error is the first sample that is not finite.
+    #[inline(always)]
+    fn add<W: Wide>(&mut self, batch: &Batch) -> Result<(), usize> {
+        let length = batch.length.next_multiple_of(EIGHT);
+        let (zero, weights) = (W::splat(0.0), LUMINANCE.map(W::splat));
+        let (mut sums, mut low, mut high) = ([zero; 3], W::splat(self.range.low), W::splat(self.range.high));
+        let mut luminances = [0.0; BATCH];
+        for k in (0..length).step_by(EIGHT) {
+            let [r, g, b] =
+                [W::widen(&batch.worth[0][k..]), W::widen(&batch.worth[1][k..]), W::widen(&batch.worth[2][k..])];
+            let luminance = r * weights[0] + g * weights[1] + b * weights[2];
+            luminance.store(&mut luminances[k..]);
+            sums = [sums[0] + r, sums[1] + g, sums[2] + b];
+            let hit = !luminance.equals(zero);
+            self.hits += u64::from(hit.count());
+            low = W::select(hit & luminance.lt(low), luminance, low);
+            high = W::select(hit & high.lt(luminance), luminance, high);
+        }
+        let moments = Moments::of_padded::<W>(batch.length, &mut luminances[..length]);
+        if !moments.mean.is_finite() {
+            return Err(batch.first_not_finite());
+        }
+        for c in 0..3 {
+            self.value[c] += sums[c].sum();
+        }
+        self.range = Range { low: least(low), high: -least(zero - high) };
+        self.luminance = self.luminance + moments;
+        self.rays += batch.rays;
+        Ok(())
+    }
+}
+
+#[inline(always)]
+fn least<W: Wide>(values: W) -> f64 {
+    values.to_array().into_iter().fold(f64::INFINITY, f64::min)
 }

@@ -11,6 +11,7 @@ pub mod lights;
 pub mod measure;
 pub mod moments;
 pub mod nearest;
+mod philox;
 pub mod query;
 pub mod rgb;
 pub mod sampler;

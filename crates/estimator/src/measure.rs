@@ -24,7 +24,7 @@ use std::marker::PhantomData;
 use std::ops::Div;
 
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::{Mask, Real};
+use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::vector::Direction;
 use twoforms_geometry::view::View;
@@ -83,13 +83,13 @@ impl<R: Real> Aim<R> {
     /// A direction for which any light counts.
     #[inline(always)]
     pub fn anywhere(psi: Direction<R>) -> Self {
-        Self { psi, target: R::splat_word(ANYWHERE) }
+        Self { psi, target: R::Word::splat(ANYWHERE) }
     }
 
     /// y = vp(x, Ψ); of a direction aimed at a target, only where y lies on it. A density aims all its samples or none.
     #[inline(always)]
     pub fn vp(&self, view: &View) -> Masked<SurfacePoint<R>, R> {
-        let aimed = !R::same(self.target, R::splat_word(ANYWHERE));
+        let aimed = !R::same(self.target, R::Word::splat(ANYWHERE));
         if aimed.any() { view.vp_on(self.target, self.psi) } else { view.vp(self.psi) }
     }
 }

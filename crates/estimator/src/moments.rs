@@ -2,6 +2,8 @@
 
 use std::ops::Add;
 
+use twoforms_geometry::wide::{EIGHT, Eight, Wide};
+
 /// Number, mean, and sums of powers of deviations from the mean (second to fourth), in binary64.
 ///
 /// Central sums, since raw sums of squares lose a variance that is small against the squared mean. Merging depends on
@@ -23,20 +25,32 @@ pub struct Moments {
 impl Moments {
     /// The moments of these values, in two passes.
     pub fn of(values: &[f64]) -> Self {
-        if values.is_empty() {
+        let mut padded = values.to_vec();
+        padded.resize(values.len().next_multiple_of(EIGHT), 0.0);
+        Self::of_padded::<Eight>(values.len(), &mut padded)
+    }
+
+    /// The moments of the first `n` values; what follows, to a multiple of eight, is zero, and is overwritten.
+    #[inline(always)]
+    pub(crate) fn of_padded<W: Wide>(n: usize, values: &mut [f64]) -> Self {
+        if n == 0 {
             return Self::default();
         }
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let (mut m2, mut m3, mut m4) = (0.0, 0.0, 0.0);
-        for value in values {
-            let d = value - mean;
-            let d2 = d * d;
-            m2 += d2;
-            m3 += d2 * d;
-            m4 += d2 * d2;
+        let mut total = W::splat(0.0);
+        for k in (0..values.len()).step_by(EIGHT) {
+            total = total + W::load(&values[k..]);
         }
-        Self { n, mean, m2, m3, m4 }
+        let mean = total.sum() / n as f64;
+        for place in &mut values[n..] {
+            *place = mean;
+        }
+        let (mut m2, mut m3, mut m4) = (W::splat(0.0), W::splat(0.0), W::splat(0.0));
+        for k in (0..values.len()).step_by(EIGHT) {
+            let d = W::load(&values[k..]) - W::splat(mean);
+            let d2 = d * d;
+            (m2, m3, m4) = (m2 + d2, m3 + d2 * d, m4 + d2 * d2);
+        }
+        Self { n: n as f64, mean, m2: m2.sum(), m3: m3.sum(), m4: m4.sum() }
     }
 
     /// Σ(w − mean)²/(n − 1): the sample variance; `None` for fewer than two values.

@@ -40,6 +40,11 @@ impl<'l> Query<'l> {
     #[inline(always)]
     pub fn l_e<R: Real>(&self, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
         let (y, some) = y.parts();
-        Rgb(R::gather(y.target, |k| self.lights.radiance(k))).or_black(some)
+        let l_e = R::gather(
+            y.target,
+            #[inline(always)]
+            |k| self.lights.radiance(k),
+        );
+        Rgb(l_e).or_black(some)
     }
 }

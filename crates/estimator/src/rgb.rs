@@ -12,13 +12,15 @@ impl<R: Real> Rgb<R> {
     /// The same colour for every sample.
     #[inline(always)]
     pub fn splat(rgb: [f32; 3]) -> Self {
-        Self(rgb.map(R::splat))
+        let [r, g, b] = rgb;
+        Self([R::splat(r), R::splat(g), R::splat(b)])
     }
 
     /// The colour where the mask holds, else black.
     #[inline(always)]
     pub fn or_black(self, mask: R::Mask) -> Self {
-        Self(self.0.map(|c| R::select(mask, c, R::zero())))
+        let (Self([r, g, b]), black) = (self, R::zero());
+        Self([R::select(mask, r, black), R::select(mask, g, black), R::select(mask, b, black)])
     }
 }
 
@@ -26,7 +28,8 @@ impl<R: Real> Mul<R> for Rgb<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, scale: R) -> Self {
-        Self(self.0.map(|c| c * scale))
+        let Self([r, g, b]) = self;
+        Self([r * scale, g * scale, b * scale])
     }
 }
 

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::xi::{Draws, Xi};
+use twoforms_geometry::real::Real;
+
+use crate::xi::{DIMENSIONS, Draws, Words, Xi};
 
 /// How ξ_1 … ξ_N are drawn. Every sampler is a function of its key, and every strategy can use it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,12 +18,37 @@ impl Sampler {
     /// All samplers.
     pub const ALL: [Self; 1] = [Self::Independent];
 
-    /// ξ of one sample of an estimate.
+    /// ξ of `n` samples or more of an estimate from `first` on; `first` and N are multiples of 32.
     #[inline(always)]
-    pub fn xi(self, draws: &Draws, index: u32) -> Xi<f32> {
+    pub fn fill<R: Real, const N: usize>(self, draws: &Draws, first: u32, n: usize, words: &mut Words<N>) {
         match self {
-            Self::Independent => draws.independent(index),
+            Self::Independent => draws.independent::<R, N>(first, n, words),
         }
+    }
+}
+
+/// The random numbers of one estimate, as a sampler spreads them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stream {
+    /// How they are spread.
+    pub sampler: Sampler,
+    /// Which they are.
+    pub draws: Draws,
+}
+
+impl Stream {
+    /// ξ of `n` samples or more from `first` on; `first` and N are multiples of 32.
+    #[inline(always)]
+    pub fn fill<R: Real, const N: usize>(&self, first: u32, n: usize, words: &mut Words<N>) {
+        self.sampler.fill::<R, N>(&self.draws, first, n, words);
+    }
+
+    /// ξ of one sample.
+    pub fn xi(&self, index: u32) -> Xi<f32> {
+        const N: usize = 32;
+        let (mut words, offset) = ([[0; N]; DIMENSIONS], index as usize % N);
+        self.fill::<f32, N>(index - offset as u32, N, &mut words);
+        Xi::load(&words, offset)
     }
 }
 

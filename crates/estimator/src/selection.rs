@@ -1,6 +1,6 @@
 //! Which target a point is drawn on.
 
-use twoforms_geometry::real::Real;
+use twoforms_geometry::real::{Real, Word};
 
 use crate::lights::Lights;
 
@@ -51,43 +51,113 @@ fn weights(selection: Selection, lights: &Lights) -> Option<Vec<f64>> {
 /// serve as density, so nothing is lost to rounding: E\[f/p\] holds exactly.
 #[derive(Clone, Debug)]
 pub struct Picker {
-    /// Words below this one pick a target before k, for k = 0..=n; the last is 2³².
-    bounds: Vec<u64>,
+    /// The targets that have a probability, in scene order.
+    shares: Vec<Share>,
+    /// For each value of a word's leading bits, the share that the least such word picks: where a search begins (Chen and
+    /// Asau 1974, "On generating random variates from an empirical distribution").
+    guide: Vec<u32>,
+    /// How many bits of a word do not lead.
+    trailing: u32,
     /// p_A of each target: its probability over its area, in 1/m².
     density: Vec<f32>,
-    /// 1 / (number of words that pick the target).
-    scale: Vec<f32>,
+}
+
+/// The words that pick one target: from the first up to that of the next share.
+#[derive(Clone, Copy, Debug)]
+struct Share {
+    first: u32,
+    target: u32,
+    /// 1 / (number of words).
+    scale: f32,
 }
 
 const WORDS: u64 = 1 << 32;
+/// Most targets whose bounds are tried one after the other; where there are more, words are looked up.
+const FEW: usize = 16;
 
 impl Picker {
     /// The distribution of `selection` over the targets of `lights`, of which there must be one; `None` where it depends
     /// on x.
     pub fn new(selection: Selection, lights: &Lights) -> Option<Self> {
         let bounds = bounds(&weights(selection, lights)?);
-        let widths: Vec<u64> = bounds.windows(2).map(|b| b[1] - b[0]).collect();
-        let probability = |width: &u64| *width as f64 / WORDS as f64;
-        let density = widths.iter().zip(lights.areas()).map(|(w, area)| (probability(w) / area) as f32).collect();
-        let scale = widths.iter().map(|&width| (1.0 / width as f64) as f32).collect();
-        Some(Self { bounds, density, scale })
+        let width = |k: usize| bounds[k + 1] - bounds[k];
+        let density = lights.areas().iter().enumerate();
+        let density = density.map(|(k, area)| (width(k) as f64 / WORDS as f64 / area) as f32).collect();
+        let share =
+            |k: usize| Share { first: bounds[k] as u32, target: k as u32, scale: (1.0 / width(k) as f64) as f32 };
+        let shares: Vec<Share> = (0..lights.targets()).filter(|&k| width(k) > 0).map(share).collect();
+        let leading = usize::BITS - shares.len().leading_zeros();
+        let trailing = u32::BITS - leading;
+        let first_of = |bits: u32| shares.partition_point(|share| share.first <= bits << trailing) as u32 - 1;
+        Some(Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density })
     }
 
     /// The target that a random word picks, and the word rescaled to a uniform number.
     #[inline(always)]
     pub fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
-        let [target, offset] = R::map_word(word, |w| {
-            let k = self.bounds.partition_point(|&bound| bound <= u64::from(w)) - 1;
-            [k as u32, (u64::from(w) - self.bounds[k]) as u32]
-        });
-        let [scale] = R::gather(target, |k| [self.scale[k as usize]]);
-        (target, (R::from_word(offset) + R::splat(0.5)) * scale)
+        let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
+        let [scale] = R::gather(
+            share,
+            #[inline(always)]
+            |k| [self.shares[k as usize].scale],
+        );
+        let (first, target) = (self.first::<R>(share), self.target::<R>(share));
+        (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+    }
+
+    /// The share of a word, by trying them in order.
+    #[inline(always)]
+    fn tried<R: Real>(&self, word: R::Word) -> R::Word {
+        let mut share = R::Word::splat(0);
+        for k in 1..self.shares.len() {
+            let before = R::below(word, R::Word::splat(self.shares[k].first));
+            share = R::select_word(before, share, R::Word::splat(k as u32));
+        }
+        share
+    }
+
+    /// The share of a word, from the guide on.
+    #[inline(always)]
+    fn looked_up<R: Real>(&self, word: R::Word) -> R::Word {
+        R::map_word(
+            word,
+            #[inline(always)]
+            |word| {
+                let mut k = self.guide[(word >> self.trailing) as usize];
+                while self.shares.get(k as usize + 1).is_some_and(|next| next.first <= word) {
+                    k += 1;
+                }
+                k
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn first<R: Real>(&self, share: R::Word) -> R::Word {
+        R::gather_word(
+            share,
+            #[inline(always)]
+            |k| self.shares[k as usize].first,
+        )
+    }
+
+    #[inline(always)]
+    fn target<R: Real>(&self, share: R::Word) -> R::Word {
+        R::gather_word(
+            share,
+            #[inline(always)]
+            |k| self.shares[k as usize].target,
+        )
     }
 
     /// p_A over a target, in 1/m².
     #[inline(always)]
     pub fn density<R: Real>(&self, target: R::Word) -> R {
-        let [density] = R::gather(target, |k| [self.density[k as usize]]);
+        let [density] = R::gather(
+            target,
+            #[inline(always)]
+            |k| [self.density[k as usize]],
+        );
         density
     }
 }

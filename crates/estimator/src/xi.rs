@@ -1,7 +1,9 @@
 //! ξ: the random numbers of one sample, as a function of who asks.
 
-use rand_philox::{philox4x32_10, splitmix64};
-use twoforms_geometry::real::Real;
+use rand_philox::splitmix64;
+use twoforms_geometry::real::{Real, Word};
+
+use crate::philox::philox4x32_10;
 
 /// Who asks for random numbers. Two askers with different keys have independent numbers; the same key always has the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,26 +36,54 @@ pub struct Draws {
     pub stream: [u32; 2],
 }
 
+/// Random words of some samples: for each dimension, one word a sample.
+pub type Words<const N: usize> = [[u32; N]; DIMENSIONS];
+
+/// Random numbers that one sample takes.
+pub const DIMENSIONS: usize = 2;
+
+/// A counter serves this many samples, and as many later ones.
+const RUN: usize = 16;
+
 impl Draws {
-    /// ξ of sample `index` by independent draws: Philox 4×32-10 (Salmon et al. 2011) at the counter (index, block of
-    /// four dimensions, stream).
+    /// ξ of `n` samples or more from `first` on by independent draws; `first` and N are multiples of 32.
+    ///
+    /// Philox gives four words a counter, and a sample takes two of them: sample 32b + 16h + j has words 2h and 2h + 1 at
+    /// the counter (16b + j, block of dimensions, stream).
     #[inline(always)]
-    pub fn independent(&self, index: u32) -> Xi<f32> {
+    pub fn independent<R: Real, const N: usize>(&self, first: u32, n: usize, words: &mut Words<N>) {
         let [one, other] = self.stream;
-        Xi { words: philox4x32_10([index, 0, one, other], self.key.0) }
+        for block in (0..n).step_by(2 * RUN) {
+            for k in (0..RUN).step_by(R::LANES) {
+                let index = first / 2 + (block / 2 + k) as u32;
+                let counter = [R::Word::counting(index), Word::splat(0), Word::splat(one), Word::splat(other)];
+                let [a, b, c, d] = philox4x32_10(counter, self.key.0);
+                let (now, later) = (block + k, block + RUN + k);
+                a.store(&mut words[0][now..]);
+                b.store(&mut words[1][now..]);
+                c.store(&mut words[0][later..]);
+                d.store(&mut words[1][later..]);
+            }
+        }
     }
 }
 
-/// Four random words of one sample, reached by name.
+/// Two random words of one sample, reached by name.
 #[derive(Clone, Copy, Debug)]
 pub struct Xi<R: Real> {
-    words: [R::Word; 4],
+    words: [R::Word; DIMENSIONS],
 }
 
 impl<R: Real> Xi<R> {
     /// ξ of these words.
-    pub fn new(words: [R::Word; 4]) -> Self {
+    pub fn new(words: [R::Word; DIMENSIONS]) -> Self {
         Self { words }
+    }
+
+    /// ξ of the samples from `offset` on.
+    #[inline(always)]
+    pub fn load<const N: usize>(words: &Words<N>, offset: usize) -> Self {
+        Self { words: [R::Word::load(&words[0][offset..]), R::Word::load(&words[1][offset..])] }
     }
 
     /// The word that picks the target and, rescaled, serves as u.
@@ -75,7 +105,7 @@ impl<R: Real> Xi<R> {
     }
 
     /// The raw words.
-    pub fn words(&self) -> [R::Word; 4] {
+    pub fn words(&self) -> [R::Word; DIMENSIONS] {
         self.words
     }
 }

@@ -1,12 +1,14 @@
 //! The numbers that formulas are written in.
 //!
-//! Every formula of sampling is generic over [`Real`] and stands once. `f32` is the scalar reference; a type that holds
-//! several samples side by side can be added without touching a formula. A comparison yields a mask, a choice is a
+//! Every formula of sampling is generic over [`Real`] and stands once. `f32` is the scalar reference, and the lanes of
+//! [`lanes`](crate::lanes) hold sixteen samples side by side. A comparison yields a mask, a choice is a
 //! [`select`](Real::select), and whatever must be looked up or traced one sample at a time goes through
 //! [`gather`](Real::gather) or [`each`](Real::each).
 
 use std::fmt::Debug;
-use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+
+use crate::wide::{Eight, Wide};
 
 /// A truth value per sample.
 pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
@@ -18,20 +20,40 @@ pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + No
     fn count(self) -> u32;
 }
 
+/// An unsigned 32-bit word per sample: random words, indices.
+pub trait Word: Copy + Debug + BitXor<Output = Self> {
+    /// The same word for every sample.
+    fn splat(value: u32) -> Self;
+    /// One word for each sample in order: first, first + 1, …, modulo 2³².
+    fn counting(first: u32) -> Self;
+    /// As many words as lie side by side, from the beginning of a slice.
+    fn load(words: &[u32]) -> Self;
+    /// Writes the words in order to the beginning of a slice.
+    fn store(self, words: &mut [u32]);
+    /// The sum modulo 2³².
+    fn wrapping_add(self, other: Self) -> Self;
+    /// The difference modulo 2³².
+    fn wrapping_sub(self, other: Self) -> Self;
+    /// The high and the low word of the product with a constant.
+    fn multiply_wide(self, factor: u32) -> (Self, Self);
+}
+
 /// One binary32 number per sample, with IEEE 754 arithmetic and no contraction, so that every implementation computes
 /// the same bits.
 pub trait Real:
     Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// How many samples lie side by side.
+    const LANES: usize;
     /// The result of comparisons.
     type Mask: Mask;
-    /// A 32-bit word per sample: random words, indices.
-    type Word: Copy + Debug;
+    /// A 32-bit word per sample.
+    type Word: Word;
+    /// Binary64 numbers for sums, by the same instructions.
+    type Wide: Wide;
 
     /// The same number for every sample.
     fn splat(value: f32) -> Self;
-    /// The same word for every sample.
-    fn splat_word(value: u32) -> Self::Word;
     /// The nearest number to a word taken as an unsigned integer.
     fn from_word(word: Self::Word) -> Self;
     /// Square root.
@@ -42,56 +64,95 @@ pub trait Real:
     fn le(self, other: Self) -> Self::Mask;
     /// Where two words are equal.
     fn same(one: Self::Word, other: Self::Word) -> Self::Mask;
+    /// Where one word is below another.
+    fn below(one: Self::Word, other: Self::Word) -> Self::Mask;
     /// `yes` where the mask holds, else `no`; the other side may hold anything, NaN included.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The same choice between words.
     fn select_word(mask: Self::Mask, yes: Self::Word, no: Self::Word) -> Self::Word;
     /// Looks up a row of numbers by each sample's index.
     fn gather<const K: usize>(index: Self::Word, row: impl Fn(u32) -> [f32; K]) -> [Self; K];
-    /// Looks up words by each sample's word.
-    fn map_word<const K: usize>(word: Self::Word, f: impl Fn(u32) -> [u32; K]) -> [Self::Word; K];
+    /// Looks up a word by each sample's index.
+    fn gather_word(index: Self::Word, word: impl Fn(u32) -> u32) -> Self::Word;
+    /// Computes with each sample's word by itself.
+    fn map_word(word: Self::Word, f: impl Fn(u32) -> u32) -> Self::Word;
     /// Asks a question of each sample where `mask` holds: its word and values to a word, or to nothing.
     fn each<const K: usize>(
         mask: Self::Mask,
         word: Self::Word,
         values: [Self; K],
-        f: impl Fn(u32, [f32; K]) -> Option<u32>,
+        f: impl FnMut(u32, [f32; K]) -> Option<u32>,
     ) -> (Self::Mask, Self::Word);
-    /// Hands over the samples in order.
-    fn for_each(self, f: impl FnMut(f32));
+    /// Writes the numbers in order to the beginning of a slice.
+    fn store(self, numbers: &mut [f32]);
 
     /// Zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::splat(0.0)
     }
     /// One.
+    #[inline(always)]
     fn one() -> Self {
         Self::splat(1.0)
     }
 }
 
 impl Mask for bool {
+    #[inline(always)]
     fn splat(value: bool) -> Self {
         value
     }
+    #[inline(always)]
     fn any(self) -> bool {
         self
     }
+    #[inline(always)]
     fn count(self) -> u32 {
         u32::from(self)
     }
 }
 
-impl Real for f32 {
-    type Mask = bool;
-    type Word = u32;
-
+impl Word for u32 {
     #[inline(always)]
-    fn splat(value: f32) -> Self {
+    fn splat(value: u32) -> Self {
         value
     }
     #[inline(always)]
-    fn splat_word(value: u32) -> u32 {
+    fn counting(first: u32) -> Self {
+        first
+    }
+    #[inline(always)]
+    fn load(words: &[u32]) -> Self {
+        words[0]
+    }
+    #[inline(always)]
+    fn store(self, words: &mut [u32]) {
+        words[0] = self;
+    }
+    #[inline(always)]
+    fn wrapping_add(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline(always)]
+    fn wrapping_sub(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+    #[inline(always)]
+    fn multiply_wide(self, factor: u32) -> (Self, Self) {
+        let product = u64::from(self) * u64::from(factor);
+        ((product >> 32) as u32, product as u32)
+    }
+}
+
+impl Real for f32 {
+    const LANES: usize = 1;
+    type Mask = bool;
+    type Word = u32;
+    type Wide = Eight;
+
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
         value
     }
     #[inline(always)]
@@ -115,6 +176,10 @@ impl Real for f32 {
         one == other
     }
     #[inline(always)]
+    fn below(one: u32, other: u32) -> bool {
+        one < other
+    }
+    #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
@@ -127,7 +192,11 @@ impl Real for f32 {
         row(index)
     }
     #[inline(always)]
-    fn map_word<const K: usize>(word: u32, f: impl Fn(u32) -> [u32; K]) -> [u32; K] {
+    fn gather_word(index: u32, word: impl Fn(u32) -> u32) -> u32 {
+        word(index)
+    }
+    #[inline(always)]
+    fn map_word(word: u32, f: impl Fn(u32) -> u32) -> u32 {
         f(word)
     }
     #[inline(always)]
@@ -135,14 +204,14 @@ impl Real for f32 {
         mask: bool,
         word: u32,
         values: [Self; K],
-        f: impl Fn(u32, [f32; K]) -> Option<u32>,
+        mut f: impl FnMut(u32, [f32; K]) -> Option<u32>,
     ) -> (bool, u32) {
         let answer = if mask { f(word, values) } else { None };
         (answer.is_some(), answer.unwrap_or_default())
     }
     #[inline(always)]
-    fn for_each(self, mut f: impl FnMut(f32)) {
-        f(self);
+    fn store(self, numbers: &mut [f32]) {
+        numbers[0] = self;
     }
 }
 
@@ -153,21 +222,26 @@ impl Real for f32 {
 /// φ¹¹/11!) and 3·10⁻⁸ (degree 8: φ¹⁰/10!); the quadrant then swaps and negates.
 #[inline(always)]
 pub fn sin_cos_turns<R: Real>(t: R) -> (R, R) {
+    let number = R::splat;
     let beyond = |bound: f32| R::splat(bound).le(t);
     let (q1, q2, q3, q4) = (beyond(0.125), beyond(0.375), beyond(0.625), beyond(0.875));
-    let quarter = R::select(q4, R::one(), R::zero());
-    let quarter = R::select(q3 & !q4, R::splat(0.75), quarter);
-    let quarter = R::select(q2 & !q3, R::splat(0.5), quarter);
-    let quarter = R::select(q1 & !q2, R::splat(0.25), quarter);
+    let quarter = R::select(q1, number(0.25), number(0.0));
+    let quarter = R::select(q2, number(0.5), quarter);
+    let quarter = R::select(q3, number(0.75), quarter);
+    let quarter = R::select(q4, number(1.0), quarter);
 
-    let phi = (t - quarter) * R::splat(std::f32::consts::TAU);
+    let phi = (t - quarter) * number(std::f32::consts::TAU);
     let x2 = phi * phi;
-    let horner = |terms: &[f32]| {
-        let start = R::splat(terms[0]);
-        terms[1..].iter().fold(start, |sum, &term| sum * x2 + R::splat(term))
-    };
-    let sin = phi * horner(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0]);
-    let cos = horner(&[1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0]);
+    let sin = number(1.0 / 362_880.0);
+    let sin = sin * x2 + number(-1.0 / 5040.0);
+    let sin = sin * x2 + number(1.0 / 120.0);
+    let sin = sin * x2 + number(-1.0 / 6.0);
+    let sin = phi * (sin * x2 + number(1.0));
+    let cos = number(1.0 / 40320.0);
+    let cos = cos * x2 + number(-1.0 / 720.0);
+    let cos = cos * x2 + number(1.0 / 24.0);
+    let cos = cos * x2 + number(-0.5);
+    let cos = cos * x2 + number(1.0);
 
     let swap = (q1 & !q2) | (q3 & !q4);
     let (s, c) = (R::select(swap, cos, sin), R::select(swap, sin, cos));

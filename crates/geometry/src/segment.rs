@@ -26,6 +26,8 @@ pub struct Segment<R> {
     pub psi: Direction<R>,
     /// r_xy in metres.
     pub r: R,
+    /// 1/r_xy, per metre.
+    pub per_r: R,
     /// cosθ_x = N_x·Ψ.
     pub cos_x: R,
     /// cosθ_y = N_y·(−Ψ).
@@ -37,14 +39,15 @@ impl<R: Real> Segment<R> {
     #[inline(always)]
     pub fn to(y: &SurfacePoint<R>) -> Self {
         let r = y.position.length();
-        let psi = Direction::of(y.position, r);
-        Self { psi, r, cos_x: psi.cos_theta(), cos_y: y.depth / r }
+        let per_r = R::one() / r;
+        let psi = Direction::of(y.position, per_r);
+        Self { psi, r, per_r, cos_x: psi.cos_theta(), cos_y: y.depth * per_r }
     }
 
     /// dω/dA = cosθ_y / r²: the solid angle that x sees per area around y, in sr/m².
     #[inline(always)]
     pub fn d_omega_d_area(&self) -> R {
-        self.cos_y / (self.r * self.r)
+        self.cos_y * (self.per_r * self.per_r)
     }
 
     /// G without V: cosθ_x cosθ_y / r², in 1/m².

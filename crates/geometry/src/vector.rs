@@ -100,10 +100,10 @@ impl<R: Real> Direction<R> {
         Self(Vector::new(cos_phi * sin_theta, sin_phi * sin_theta, cos_theta))
     }
 
-    /// The direction of a vector of known length r > 0.
+    /// The direction of a vector of length r > 0, from 1/r.
     #[inline(always)]
-    pub fn of(vector: Vector<R>, r: R) -> Self {
-        Self(vector * (R::one() / r))
+    pub fn of(vector: Vector<R>, per_r: R) -> Self {
+        Self(vector * per_r)
     }
 
     /// As a unit vector.

@@ -1,7 +1,7 @@
 //! Points on the lights, and the directions toward them.
 
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::Real;
+use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::View;
 
@@ -50,8 +50,8 @@ impl Density<SolidAngle> for TowardLights<'_> {
 
     #[inline(always)]
     fn pdf<R: Real>(&self, view: &View, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
-        let aimed = !R::same(aim.target, R::splat_word(ANYWHERE));
-        let target = R::select_word(aimed, aim.target, R::splat_word(0));
+        let aimed = !R::same(aim.target, R::Word::splat(ANYWHERE));
+        let target = R::select_word(aimed, aim.target, R::Word::splat(0));
         let y = view.facet::<R>(target).point_along(aim.psi, target);
         let xy = Segment::to(&y);
         let (pdf, some) = self.lights.pdf(view, &y).parts();

@@ -2,39 +2,43 @@
 
 use glam::DVec3;
 
-use crate::real::{Mask, Real};
+use crate::real::Real;
 use crate::vector::{Vector, round};
 
-/// A convex cone: the directions on the inner side of up to four planes through x. What stands between x and a target,
+/// A convex cone: the directions on the inner side of three or four planes through x. What stands between x and a target,
 /// and the outline of the target itself, are such cones.
 ///
 /// An edge's plane is the cross product of its two vertices, taken in binary64 by two products and a difference, so
 /// triangles on either side of an edge have exactly opposite planes, and a direction on the edge belongs to both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
-    planes: [[f32; 3]; 4],
+    planes: [[f32; 3]; 3],
+    fourth: Option<[f32; 3]>,
 }
 
 impl Cone {
-    /// The cone with these inward plane normals (any length, local): the first four. Missing ones bound nothing.
+    /// The cone with these inward plane normals (any length, local): three or four. Missing ones bound nothing.
     pub(crate) fn new(normals: impl IntoIterator<Item = DVec3>) -> Self {
-        let mut planes = [[0.0; 3]; 4];
-        for (plane, normal) in planes.iter_mut().zip(normals) {
-            *plane = round(normal.normalize_or_zero());
-        }
-        Self { planes }
+        let mut normals = normals.into_iter().map(|normal| round(normal.normalize_or_zero()));
+        let planes = std::array::from_fn(|_| normals.next().unwrap_or_default());
+        Self { planes, fourth: normals.next() }
     }
 
     /// Whether a direction (of any length) lies in the cone or on its boundary.
     #[inline(always)]
     pub fn holds<R: Real>(&self, toward: Vector<R>) -> R::Mask {
-        self.planes.iter().fold(R::Mask::splat(true), |inside, &normal| {
-            if !inside.any() {
-                return inside;
-            }
-            inside & R::zero().le(Vector::splat(normal).dot(toward))
-        })
+        let [a, b, c] = self.planes;
+        let inside = inner(a, toward) & inner(b, toward) & inner(c, toward);
+        match self.fourth {
+            Some(d) => inside & inner(d, toward),
+            None => inside,
+        }
     }
+}
+
+#[inline(always)]
+fn inner<R: Real>(normal: [f32; 3], toward: Vector<R>) -> R::Mask {
+    R::zero().le(Vector::splat(normal).dot(toward))
 }
 
 /// The inward normals of the planes through x and the edges of a polygon that is convex as x sees it, its corners in

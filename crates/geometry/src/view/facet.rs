@@ -6,7 +6,7 @@ use super::cone::{Cone, edge_planes};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
-use crate::real::Real;
+use crate::real::{Mask, Real};
 use crate::segment::SurfacePoint;
 use crate::target::{Shape, Sides};
 use crate::vector::{Direction, Vector, round};
@@ -34,16 +34,17 @@ pub struct Facet<R> {
 }
 
 impl<R: Real> Facet<R> {
+    #[inline(always)]
     pub(crate) fn from_row(row: [R; ROW]) -> Self {
-        let vector = |k: usize| Vector::new(row[k], row[k + 1], row[k + 2]);
+        let [ox, oy, oz, ex, ey, ez, fx, fy, fz, gx, gy, gz, tx, ty, tz, depth, triangle] = row;
         Self {
-            origin: vector(0),
-            e: vector(3),
-            f: vector(6),
-            g: vector(9),
-            toward: vector(12),
-            depth: row[15],
-            triangle: row[16],
+            origin: Vector::new(ox, oy, oz),
+            e: Vector::new(ex, ey, ez),
+            f: Vector::new(fx, fy, fz),
+            g: Vector::new(gx, gy, gz),
+            toward: Vector::new(tx, ty, tz),
+            depth,
+            triangle,
         }
     }
 
@@ -51,7 +52,7 @@ impl<R: Real> Facet<R> {
     #[inline(always)]
     pub fn point(&self, [u, v]: [R; 2], target: R::Word) -> SurfacePoint<R> {
         let is_triangle = R::zero().lt(self.triangle);
-        let s = R::select(is_triangle, u.sqrt(), u);
+        let s = if is_triangle.any() { R::select(is_triangle, u.sqrt(), u) } else { u };
         let position = self.origin + self.e * s + self.f * v + self.g * (s * v);
         SurfacePoint { position, depth: self.depth, target }
     }

@@ -17,7 +17,7 @@ use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::masked::Masked;
 use crate::ray::Ray;
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, Word};
 use crate::segment::SurfacePoint;
 use crate::vector::{Direction, Vector};
 
@@ -73,14 +73,25 @@ impl<'g> View<'g> {
     /// The targets as x meets them, by each sample's index.
     #[inline(always)]
     pub fn facet<R: Real>(&self, target: R::Word) -> Facet<R> {
-        Facet::from_row(R::gather(target, |k| self.facet_row(k)))
+        Facet::from_row(R::gather(
+            target,
+            #[inline(always)]
+            |k| self.facet_row(k),
+        ))
     }
 
     /// Whether the line from x along Ψ meets a target, whatever stands between and whichever side it shows.
     #[inline(always)]
     pub fn meets<R: Real>(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
         let all = R::Mask::splat(true);
-        R::each(all, target, psi.vector().to_array(), |k, psi| self.outline(k).holds(Vector::from(psi)).then_some(k)).0
+        R::each(
+            all,
+            target,
+            psi.vector().to_array(),
+            #[inline(always)]
+            |k, psi| self.outline(k).holds(Vector::from(psi)).then_some(k),
+        )
+        .0
     }
 
     /// y = vp(x, Ψ) where y is on the emitting side of a target; nothing where Ψ meets no surface, a surface that does
@@ -89,11 +100,15 @@ impl<'g> View<'g> {
     pub fn vp<R: Real>(&self, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
         let (reached, target) = match &self.sights {
             Some(sights) => self.reached_by_planes(sights, psi),
-            None => R::each(R::Mask::splat(true), R::splat_word(0), psi.vector().to_array(), |_, psi| {
-                self.reached_by_ray(psi)
-            }),
+            None => R::each(
+                R::Mask::splat(true),
+                R::Word::splat(0),
+                psi.vector().to_array(),
+                #[inline(always)]
+                |_, psi| self.reached_by_ray(psi),
+            ),
         };
-        let target = R::select_word(reached, target, R::splat_word(0));
+        let target = R::select_word(reached, target, R::Word::splat(0));
         if !reached.any() {
             let nowhere = SurfacePoint { position: psi.vector(), depth: R::zero(), target };
             return Masked::new(nowhere, reached);
@@ -119,25 +134,32 @@ impl<'g> View<'g> {
         let Some(sights) = &self.sights else {
             return self.visible_by_ray(y, asked);
         };
-        (0..).zip(sights).fold(R::Mask::splat(false), |visible, (k, sight)| {
-            let here = asked & R::same(y.target, R::splat_word(k));
-            if here.any() { visible | (here & self.unblocked(sight, y.position, y.target, here)) } else { visible }
-        })
+        let mut visible = R::Mask::splat(false);
+        for (k, sight) in sights.iter().enumerate() {
+            let here = asked & R::same(y.target, R::Word::splat(k as u32));
+            if here.any() {
+                visible = visible | self.unblocked(sight, y.position, y.target, here);
+            }
+        }
+        visible
     }
 
     /// The sights are disjoint but for edges and blocked by each other, so the first that is reached is the one.
     #[inline(always)]
     fn reached_by_planes<R: Real>(&self, sights: &[Sight], psi: Direction<R>) -> (R::Mask, R::Word) {
-        let nothing = (R::Mask::splat(false), R::splat_word(0));
-        (0..).zip(sights).filter(|(_, sight)| sight.lit()).fold(nothing, |(reached, found), (k, sight)| {
-            let inside = !reached & sight.outline().holds(psi.vector());
-            if !inside.any() {
-                return (reached, found);
+        let (mut reached, mut found) = (R::Mask::splat(false), R::Word::splat(0));
+        for (k, sight) in sights.iter().enumerate() {
+            if !sight.lit() {
+                continue;
             }
-            let target = R::splat_word(k);
-            let seen = inside & self.unblocked(sight, psi.vector(), target, inside);
-            (reached | seen, R::select_word(seen, target, found))
-        })
+            let inside = !reached & sight.outline().holds(psi.vector());
+            if inside.any() {
+                let target = R::Word::splat(k as u32);
+                let seen = self.unblocked(sight, psi.vector(), target, inside);
+                (reached, found) = (reached | seen, R::select_word(seen, target, found));
+            }
+        }
+        (reached, found)
     }
 
     /// Whether nothing stands between x and the sight's target in a direction (of any length), where `asked`.
@@ -147,9 +169,6 @@ impl<'g> View<'g> {
             Between::Gathered(cones) => {
                 let mut clear = asked;
                 for cone in cones {
-                    if !clear.any() {
-                        break;
-                    }
                     clear = clear & !cone.holds(toward);
                 }
                 clear
@@ -164,8 +183,14 @@ impl<'g> View<'g> {
 
     #[inline(always)]
     fn clear_by_ray<R: Real>(&self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
-        let clear = |k, toward| self.clear(toward, k).then_some(k);
-        R::each(asked, target, toward.to_array(), clear).0
+        R::each(
+            asked,
+            target,
+            toward.to_array(),
+            #[inline(always)]
+            |k, toward| self.clear(toward, k).then_some(k),
+        )
+        .0
     }
 
     /// Casts a ray in a local direction toward the plane of a target.
@@ -191,6 +216,7 @@ impl<'g> View<'g> {
         }
     }
 
+    #[inline(always)]
     fn facet_row(&self, target: u32) -> [f32; facet::ROW] {
         match &self.sights {
             Some(sights) => sights[target as usize].row(),

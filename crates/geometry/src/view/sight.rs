@@ -46,16 +46,19 @@ impl Sight {
     }
 
     /// Whether light can come from it at all: x on a side that emits, some of it above x's horizon.
+    #[inline(always)]
     pub fn lit(&self) -> bool {
         self.lit
     }
 
     /// The directions from x to the target.
+    #[inline(always)]
     pub fn outline(&self) -> &Cone {
         &self.outline
     }
 
     /// What stands between.
+    #[inline(always)]
     pub fn between(&self) -> &Between {
         &self.between
     }
@@ -64,6 +67,7 @@ impl Sight {
         &self.facet
     }
 
+    #[inline(always)]
     pub(crate) fn row(&self) -> [f32; ROW] {
         self.row
     }

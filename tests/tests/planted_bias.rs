@@ -9,7 +9,7 @@ use twoforms_estimator::formulation::{Area, Formulation, Hemisphere};
 use twoforms_estimator::measure::{Aim, Integrand, Measure, Pdf, Sample, SolidAngle, SurfaceArea};
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::{Picker, Selection};
+use twoforms_estimator::selection::{Pick, Picker, Selection};
 use twoforms_estimator::strategy::{Kernel, Strategy};
 use twoforms_estimator::xi::Xi;
 use twoforms_geometry::masked::Masked;
@@ -94,7 +94,7 @@ impl Density<SolidAngle> for CosineToldUniform {
 }
 
 /// Draws directions toward points on lights, and tells the density of the points as if it were that of the directions.
-struct AreaToldSolidAngle<'p>(OnLights<'p>);
+struct AreaToldSolidAngle<'p>(OnLights<'p, Picker>);
 
 impl Density<SolidAngle> for AreaToldSolidAngle<'_> {
     fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
@@ -112,8 +112,8 @@ impl Density<SolidAngle> for AreaToldSolidAngle<'_> {
 
 /// Picks lights one way, and tells the density of another.
 struct PickedToldOther<'p> {
-    picked: OnLights<'p>,
-    told: OnLights<'p>,
+    picked: OnLights<'p, Picker>,
+    told: OnLights<'p, Picker>,
 }
 
 impl Density<SurfaceArea> for PickedToldOther<'_> {
@@ -131,7 +131,7 @@ impl Density<SurfaceArea> for PickedToldOther<'_> {
 }
 
 /// Points on triangles without the square root: denser toward the first corner.
-struct WithoutSquareRoot<'p>(OnLights<'p>);
+struct WithoutSquareRoot<'p>(OnLights<'p, Picker>);
 
 impl Density<SurfaceArea> for WithoutSquareRoot<'_> {
     fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {

@@ -133,9 +133,10 @@ impl<F: Formulation, D: Density<F::Measure>> Kernel for Secondary<'_, '_, F, D> 
     #[inline(always)]
     fn run<R: Real>(self) -> Self::Output {
         let mut estimate = Estimate::default();
+        let mut batch = Batch::new();
         for start in (0..self.n).step_by(BATCH) {
             let length = BATCH.min((self.n - start) as usize);
-            let mut batch = Batch::new(length);
+            (batch.length, batch.rays) = (length, 0);
             self.stream.fill::<R, BATCH>(start, length, &mut batch.words);
             for offset in (0..length).step_by(R::LANES) {
                 self.evaluate::<R>(offset, &mut batch);
@@ -171,8 +172,8 @@ struct Batch {
 
 impl Batch {
     #[inline(always)]
-    fn new(length: usize) -> Self {
-        Self { words: [[0; BATCH]; DIMENSIONS], worth: [[0.0; BATCH]; 3], length, rays: 0 }
+    fn new() -> Self {
+        Self { words: [[0; BATCH]; DIMENSIONS], worth: [[0.0; BATCH]; 3], length: 0, rays: 0 }
     }
 
     #[cold]

@@ -3,6 +3,7 @@
 use twoforms_geometry::real::{Real, Word};
 
 use crate::lights::Lights;
+use crate::xi::unit;
 
 /// How the light is picked before a point on it: the word after `@`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,6 +44,33 @@ fn weights(selection: Selection, lights: &Lights) -> Option<Vec<f64>> {
     };
     let targets = lights.light_of_target().iter().zip(lights.areas());
     targets.map(|(&light, area)| Some(of_light(light)? * area / lights.light_areas()[light])).collect()
+}
+
+/// A discrete distribution over targets.
+pub trait Pick {
+    /// The target that a random word picks, and the word rescaled to a uniform number.
+    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R);
+    /// p_A over a target, in 1/m².
+    fn density<R: Real>(&self, target: R::Word) -> R;
+}
+
+/// The distribution over a single target. Nothing is looked up, so that all about the target is known before any sample:
+/// half the cost of one.
+#[derive(Clone, Copy, Debug)]
+pub struct Only {
+    density: f32,
+}
+
+impl Pick for Only {
+    #[inline(always)]
+    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+        (R::Word::splat(0), unit(word))
+    }
+
+    #[inline(always)]
+    fn density<R: Real>(&self, _: R::Word) -> R {
+        R::splat(self.density)
+    }
 }
 
 /// A discrete distribution over targets, drawn from by inversion of its CDF in scene order.
@@ -92,17 +120,10 @@ impl Picker {
         Some(Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density })
     }
 
-    /// The target that a random word picks, and the word rescaled to a uniform number.
-    #[inline(always)]
-    pub fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
-        let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
-        let [scale] = R::gather(
-            share,
-            #[inline(always)]
-            |k| [self.shares[k as usize].scale],
-        );
-        let (first, target) = (self.first::<R>(share), self.target::<R>(share));
-        (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+    /// The distribution, if there is a single target.
+    pub fn only(&self) -> Option<Only> {
+        let [density] = self.density[..] else { return None };
+        Some(Only { density })
     }
 
     /// The share of a word, by trying them in order.
@@ -149,10 +170,23 @@ impl Picker {
             |k| self.shares[k as usize].target,
         )
     }
+}
 
-    /// p_A over a target, in 1/m².
+impl Pick for Picker {
     #[inline(always)]
-    pub fn density<R: Real>(&self, target: R::Word) -> R {
+    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+        let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
+        let [scale] = R::gather(
+            share,
+            #[inline(always)]
+            |k| [self.shares[k as usize].scale],
+        );
+        let (first, target) = (self.first::<R>(share), self.target::<R>(share));
+        (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+    }
+
+    #[inline(always)]
+    fn density<R: Real>(&self, target: R::Word) -> R {
         let [density] = R::gather(
             target,
             #[inline(always)]

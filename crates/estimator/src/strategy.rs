@@ -12,7 +12,7 @@ use crate::formulation::{Area, Formulation, Hemisphere};
 use crate::lights::Lights;
 use crate::nearest::nearest;
 use crate::query::Query;
-use crate::selection::{Picker, Selection};
+use crate::selection::{Pick, Picker, Selection};
 
 /// A formulation with a density of its measure, or a combination of two, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,13 +220,28 @@ impl Prepared {
         match &self.density {
             Ready::HemisphereUniform => kernel.run(&Estimator::<Hemisphere, _>::new(view, query, UniformHemisphere)),
             Ready::HemisphereCosine => kernel.run(&Estimator::<Hemisphere, _>::new(view, query, CosineHemisphere)),
-            Ready::HemisphereTowardLights(picker) => {
-                let toward = TowardLights { lights: OnLights { picker } };
-                kernel.run(&Estimator::<Hemisphere, _>::new(view, query, toward))
-            }
-            Ready::AreaUniform(picker) => kernel.run(&Estimator::<Area, _>::new(view, query, OnLights { picker })),
+            Ready::HemisphereTowardLights(picker) => match picker.only() {
+                Some(only) => kernel.run(&toward_lights(view, query, &only)),
+                None => kernel.run(&toward_lights(view, query, picker)),
+            },
+            Ready::AreaUniform(picker) => match picker.only() {
+                Some(only) => kernel.run(&on_lights(view, query, &only)),
+                None => kernel.run(&on_lights(view, query, picker)),
+            },
         }
     }
+}
+
+fn on_lights<'a, P: Pick>(view: &'a View, query: &'a Query, picker: &'a P) -> Estimator<'a, Area, OnLights<'a, P>> {
+    Estimator::new(view, query, OnLights { picker })
+}
+
+fn toward_lights<'a, P: Pick>(
+    view: &'a View,
+    query: &'a Query,
+    picker: &'a P,
+) -> Estimator<'a, Hemisphere, TowardLights<'a, P>> {
+    Estimator::new(view, query, TowardLights { lights: OnLights { picker } })
 }
 
 #[cfg(test)]

@@ -112,6 +112,6 @@ impl<R: Real> Xi<R> {
 
 /// (w + 1/2) / 2³², rounded: uniform in (0, 1].
 #[inline(always)]
-fn unit<R: Real>(word: R::Word) -> R {
+pub(crate) fn unit<R: Real>(word: R::Word) -> R {
     (R::from_word(word) + R::splat(0.5)) * R::splat(1.0 / 4_294_967_296.0)
 }

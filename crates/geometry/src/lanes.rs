@@ -145,18 +145,19 @@ impl<S: Simd> LaneWord<S> {
 enum Few<S: Simd> {
     One(u32),
     Some([Option<(u32, LaneMask<S>)>; FEW]),
-    Many([u32; LANES]),
+    Many,
 }
 
 impl<S: Simd> LaneWord<S> {
     #[inline(always)]
     fn few(self) -> Few<S> {
-        let words = self.to_array();
-        let mut left = !Lanes::same(self, Word::splat(words[0]));
+        let first = self.0[0];
+        let mut left = !Lanes::same(self, Word::splat(first));
         if !left.any() {
-            return Few::One(words[0]);
+            return Few::One(first);
         }
-        let mut found = [Some((words[0], !left)), None, None, None];
+        let mut found = [Some((first, !left)), None, None, None];
+        let words = self.to_array();
         for place in &mut found[1..] {
             let word = words[left.first()];
             let here = Lanes::same(self, Word::splat(word));
@@ -166,14 +167,14 @@ impl<S: Simd> LaneWord<S> {
                 return Few::Some(found);
             }
         }
-        Few::Many(words)
+        Few::Many
     }
 }
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
-    fn of(values: [f32; LANES]) -> Self {
-        Self(f32x16::simd_from(proof(), values))
+    fn of(numbers: [f32; LANES]) -> Self {
+        Self(f32x16::simd_from(proof(), numbers))
     }
 
     #[inline(always)]
@@ -242,7 +243,8 @@ impl<S: Simd> Real for Lanes<S> {
                     }
                 }
             }
-            Few::Many(index) => {
+            Few::Many => {
+                let index = index.to_array();
                 let mut columns = [[0.0; LANES]; K];
                 for lane in 0..LANES {
                     let row = row(index[lane]);
@@ -268,7 +270,7 @@ impl<S: Simd> Real for Lanes<S> {
                 }
                 words
             }
-            Few::Many(_) => Self::map_word(index, word),
+            Few::Many => Self::map_word(index, word),
         }
     }
     #[inline(always)]

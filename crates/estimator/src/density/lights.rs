@@ -7,25 +7,25 @@ use twoforms_geometry::view::View;
 
 use super::Density;
 use crate::measure::{ANYWHERE, Aim, Pdf, Sample, SolidAngle, SurfaceArea};
-use crate::selection::Picker;
+use crate::selection::Pick;
 use crate::xi::Xi;
 
 /// A target is picked, then a point on it uniformly: p(y) = Pr(target)/A(target).
 #[derive(Clone, Copy, Debug)]
-pub struct OnLights<'p> {
+pub struct OnLights<'p, P> {
     /// Picks the target.
-    pub picker: &'p Picker,
+    pub picker: &'p P,
 }
 
 /// The crossed row: y is drawn as [`OnLights`] does, and Ψ points at it, with p(Ψ) = p(y) r²/cosθ_y at that y. Only the
 /// target drawn counts, so the two ways to write the integral have one density and equal each other sample by sample.
 #[derive(Clone, Copy, Debug)]
-pub struct TowardLights<'p> {
+pub struct TowardLights<'p, P> {
     /// Where Ψ points at.
-    pub lights: OnLights<'p>,
+    pub lights: OnLights<'p, P>,
 }
 
-impl Density<SurfaceArea> for OnLights<'_> {
+impl<P: Pick> Density<SurfaceArea> for OnLights<'_, P> {
     #[inline(always)]
     fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
         let (target, u) = self.picker.pick::<R>(xi.pick());
@@ -39,7 +39,7 @@ impl Density<SurfaceArea> for OnLights<'_> {
     }
 }
 
-impl Density<SolidAngle> for TowardLights<'_> {
+impl<P: Pick> Density<SolidAngle> for TowardLights<'_, P> {
     #[inline(always)]
     fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let (Sample { at: y, pdf }, some) = self.lights.sample(view, xi).parts();

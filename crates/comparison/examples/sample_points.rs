@@ -1,0 +1,90 @@
+//! Samples per second at fixed points: the view from each point is built once, then N samples are drawn.
+//!
+//! `cargo run --release -p twoforms-comparison --example sample_points -- SCENE POINTS.csv STRATEGY N [--repeat K]`
+//! prints one JSON line. POINTS.csv has six numbers a line: position and normal.
+
+use std::error::Error;
+use std::time::Duration;
+
+use cpu_time::ProcessTime;
+use glam::DVec3;
+use twoforms_comparison::world::World;
+use twoforms_estimator::density::Density;
+use twoforms_estimator::estimator::{Estimate, Estimator, NotFinite};
+use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::query::Query;
+use twoforms_estimator::sampler::{Sampler, Stream};
+use twoforms_estimator::strategy::{Kernel, Prepared, Strategy};
+use twoforms_estimator::xi::{Draws, Key};
+use twoforms_geometry::frame::Frame;
+use twoforms_geometry::view::{Effort, View};
+use twoforms_scene::Scene;
+
+const USAGE: &str = "usage: sample_points SCENE POINTS.csv STRATEGY N [--repeat K]";
+
+struct Samples {
+    n: u32,
+    stream: Stream,
+}
+
+impl Kernel for Samples {
+    type Output = Result<Estimate, NotFinite>;
+
+    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+        estimator.secondary(self.n, self.stream)
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (scene, points, strategy, n, repeat) = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [scene, points, strategy, n] => (scene, points, strategy, n, 1),
+        [scene, points, strategy, n, "--repeat", k] => (scene, points, strategy, n, k.parse()?),
+        _ => return Err(USAGE.into()),
+    };
+    let (strategy, n): (Strategy, u32) = (strategy.parse()?, n.parse()?);
+    let world = World::new(Scene::load(scene.as_ref())?)?;
+    let prepared = strategy.prepare(&world.lights)?;
+    let frames = frames(&std::fs::read_to_string(points)?)?;
+    let (mut times, mut mean) = (Vec::new(), 0.0);
+    for round in 0..repeat {
+        let start = ProcessTime::now();
+        mean = mean_irradiance(&world, &prepared, &frames, n, round)?;
+        times.push(start.elapsed());
+    }
+    times.sort_unstable();
+    let rate = |time: Duration| frames.len() as f64 * f64::from(n) / time.as_secs_f64() / 1e6;
+    let (median, best) = (rate(times[times.len() / 2]), rate(times[0]));
+    println!(
+        r#"{{"strategy":"{strategy}","points":{},"samples":{n},"million_samples_per_cpu_second":{median:.1},"best":{best:.1},"mean_irradiance":{mean}}}"#,
+        frames.len()
+    );
+    Ok(())
+}
+
+fn frames(text: &str) -> Result<Vec<Frame>, Box<dyn Error>> {
+    let frame = |line: &str| {
+        let numbers = line.split(',').map(|number| number.trim().parse()).collect::<Result<Vec<f64>, _>>()?;
+        let [x, y, z, nx, ny, nz] = numbers[..] else { return Err(format!("six numbers are needed: {line}").into()) };
+        Ok(Frame::new(DVec3::new(x, y, z), DVec3::new(nx, ny, nz).normalize()))
+    };
+    text.lines().map(frame).collect()
+}
+
+fn mean_irradiance(
+    world: &World,
+    prepared: &Prepared,
+    frames: &[Frame],
+    n: u32,
+    round: u64,
+) -> Result<f64, Box<dyn Error>> {
+    let query = Query::irradiance(&world.lights);
+    let mut sum = 0.0;
+    for (frame, point) in frames.iter().zip(0..) {
+        let view = View::new(&world.geometry, *frame, Effort::Gather);
+        let draws = Draws { key: Key::new([round, point]), stream: [n, 0] };
+        let stream = Stream { sampler: Sampler::Independent, draws };
+        sum += prepared.run(&view, &query, Samples { n, stream })?.luminance.mean;
+    }
+    Ok(sum / frames.len() as f64)
+}

@@ -44,7 +44,7 @@ impl Kernel for Samples {
 
     fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
         let worth = |index| {
-            let (Rgb(worth), _) = estimator.primary::<f32>(self.xi(index));
+            let (Rgb(worth), _) = estimator.primary(&estimator.view().from_x(), self.xi(index));
             worth
         };
         (0..self.n).map(worth).collect()

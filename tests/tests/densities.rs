@@ -120,7 +120,7 @@ impl Visitor for Telling {
     fn visit<M: Measure, D: Density<M>>(self, view: &View, density: &D, _: &impl Domain<M>) -> Told {
         let mut told = Told::default();
         for index in 0..self.0.n {
-            let (Sample { at, pdf }, some) = density.sample::<f32>(view, self.0.xi(index)).parts();
+            let (Sample { at, pdf }, some) = density.sample::<f32>(&view.from_x(), self.0.xi(index)).parts();
             let again = value(density, view, &at);
             told.drawn += u32::from(some);
             told.lost += u32::from(some && again == 0.0);

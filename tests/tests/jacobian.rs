@@ -89,11 +89,11 @@ fn through_both(case: &Case, selection: Selection) -> Comparison {
     let lights = OnLights { picker: &picker };
     let draws = Samples::new(SEED, &case.place, Strategy::Area(Draw::Uniform, selection), Sampler::Independent, N);
     Comparison::of((0..N).filter_map(|index| {
-        let (Sample { at: y, pdf: p }, some) = lights.sample::<f32>(&view, draws.xi(index)).parts();
+        let (Sample { at: y, pdf: p }, some) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
         let xy = Segment::to(&y);
         let aim = Aim { psi: xy.psi, target: y.target };
-        let Rgb(area) = Area::integrand(&view, &query, &y) / p;
-        let Rgb(hemisphere) = Hemisphere::integrand(&view, &query, &aim) / p.per_solid_angle(&xy);
+        let Rgb(area) = Area::integrand(&view.from_x(), &query, &y) / p;
+        let Rgb(hemisphere) = Hemisphere::integrand(&view.from_x(), &query, &aim) / p.per_solid_angle(&xy);
         (some && xy.facing()).then_some([area, hemisphere])
     }))
 }
@@ -126,7 +126,7 @@ fn a_density_goes_to_the_other_measure_and_back() {
         let strategy = Strategy::Area(Draw::Uniform, Selection::Together);
         let draws = Samples::new(SEED, &case.place, strategy, Sampler::Independent, N);
         for index in 0..N {
-            let (Sample { at: y, pdf: p }, _) = lights.sample::<f32>(&view, draws.xi(index)).parts();
+            let (Sample { at: y, pdf: p }, _) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
             let xy = Segment::to(&y);
             let again = p.per_solid_angle(&xy).per_area(&xy);
             let apart = (f64::from(again.value()) / f64::from(p.value()) - 1.0).abs();

@@ -15,7 +15,7 @@ use twoforms_estimator::xi::Xi;
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::{Segment, SurfacePoint};
-use twoforms_geometry::view::{Effort, View};
+use twoforms_geometry::view::{Effort, Vantage, View};
 use twoforms_tests::domain::{HemisphereCells, LightCells, chi_square};
 use twoforms_tests::samples::{Samples, moments};
 use twoforms_tests::statistics::{Family, Outcome, ZTest};
@@ -34,7 +34,7 @@ impl Formulation for WithoutCosineAtLight {
     type Measure = SurfaceArea;
     const NAME: &'static str = "area without cosθ_y";
 
-    fn integrand<R: Real>(view: &View, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
+    fn integrand<R: Real>(view: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
         let v = view.visible(y, xy.facing());
         Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r() * (xy.cos_x / (xy.r * xy.r)))
@@ -52,7 +52,7 @@ impl Formulation for WithoutVisibility {
     type Measure = SurfaceArea;
     const NAME: &'static str = "area without V";
 
-    fn integrand<R: Real>(_: &View, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
+    fn integrand<R: Real>(_: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
         Integrand::new(query.l_e(Masked::new(*y, xy.facing())) * query.f_r() * xy.g())
     }
@@ -69,13 +69,13 @@ struct Scaled<D> {
 }
 
 impl<M: Measure, D: Density<M>> Density<M> for Scaled<D> {
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<M, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<M, R>, R> {
         let scaled =
             |Sample { at, pdf }: Sample<M, R>| Sample { at, pdf: Pdf::new(pdf.value() * R::splat(self.factor)) };
         self.right.sample(view, xi).map(scaled)
     }
 
-    fn pdf<R: Real>(&self, view: &View, at: &M::Point<R>) -> Masked<Pdf<M, R>, R> {
+    fn pdf<R: Real>(&self, view: &Vantage<R>, at: &M::Point<R>) -> Masked<Pdf<M, R>, R> {
         self.right.pdf(view, at).map(|pdf| Pdf::new(pdf.value() * R::splat(self.factor)))
     }
 }
@@ -84,11 +84,11 @@ impl<M: Measure, D: Density<M>> Density<M> for Scaled<D> {
 struct CosineToldUniform;
 
 impl Density<SolidAngle> for CosineToldUniform {
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         CosineHemisphere.sample(view, xi).map(|Sample { at, .. }| Sample { at, pdf: Pdf::new(R::splat(1.0 / TAU)) })
     }
 
-    fn pdf<R: Real>(&self, view: &View, at: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+    fn pdf<R: Real>(&self, view: &Vantage<R>, at: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
         CosineHemisphere.pdf(view, at).map(|_| Pdf::new(R::splat(1.0 / TAU)))
     }
 }
@@ -97,16 +97,18 @@ impl Density<SolidAngle> for CosineToldUniform {
 struct AreaToldSolidAngle<'p>(OnLights<'p, Picker>);
 
 impl Density<SolidAngle> for AreaToldSolidAngle<'_> {
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let told = |Sample { at, .. }: Sample<SolidAngle, R>| {
             let density = self.0.picker.density::<R>(at.target);
             Sample { at, pdf: Pdf::new(density) }
         };
-        TowardLights { lights: self.0 }.sample(view, xi).map(told)
+        TowardLights { lights: OnLights { picker: self.0.picker } }.sample(view, xi).map(told)
     }
 
-    fn pdf<R: Real>(&self, view: &View, at: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
-        TowardLights { lights: self.0 }.pdf(view, at).map(|_| Pdf::new(self.0.picker.density::<R>(at.target)))
+    fn pdf<R: Real>(&self, view: &Vantage<R>, at: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+        TowardLights { lights: OnLights { picker: self.0.picker } }
+            .pdf(view, at)
+            .map(|_| Pdf::new(self.0.picker.density::<R>(at.target)))
     }
 }
 
@@ -117,7 +119,7 @@ struct PickedToldOther<'p> {
 }
 
 impl Density<SurfaceArea> for PickedToldOther<'_> {
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
         let told = |Sample { at, .. }: Sample<SurfaceArea, R>| {
             let (pdf, _) = self.told.pdf(view, &at).parts();
             Sample { at, pdf }
@@ -125,7 +127,7 @@ impl Density<SurfaceArea> for PickedToldOther<'_> {
         self.picked.sample(view, xi).map(told)
     }
 
-    fn pdf<R: Real>(&self, view: &View, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
+    fn pdf<R: Real>(&self, view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
         self.told.pdf(view, y)
     }
 }
@@ -134,13 +136,13 @@ impl Density<SurfaceArea> for PickedToldOther<'_> {
 struct WithoutSquareRoot<'p>(OnLights<'p, Picker>);
 
 impl Density<SurfaceArea> for WithoutSquareRoot<'_> {
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
         let (target, u) = self.0.picker.pick::<R>(xi.pick());
-        let at = view.facet::<R>(target).point([u * u, xi.v()], target);
+        let at = view.facet(target).point([u * u, xi.v()], target);
         self.pdf(view, &at).map(|pdf| Sample { at, pdf })
     }
 
-    fn pdf<R: Real>(&self, view: &View, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
+    fn pdf<R: Real>(&self, view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
         self.0.pdf(view, y)
     }
 }
@@ -235,10 +237,12 @@ fn right_means_are_not() {
     let right = cases.map(|case| {
         let trial = Trial::new(case);
         let picker = trial.picker(Selection::Together);
-        let lights = OnLights { picker: &picker };
         [
-            trial.estimate::<Area, _>("area/uniform", lights),
-            trial.estimate::<Hemisphere, _>("hemisphere/toward-lights", TowardLights { lights }),
+            trial.estimate::<Area, _>("area/uniform", OnLights { picker: &picker }),
+            trial.estimate::<Hemisphere, _>(
+                "hemisphere/toward-lights",
+                TowardLights { lights: OnLights { picker: &picker } },
+            ),
             trial.estimate::<Hemisphere, _>("hemisphere/cosine", CosineHemisphere),
         ]
     });

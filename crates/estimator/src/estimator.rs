@@ -3,7 +3,7 @@
 use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::{Vantage, View};
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 use crate::density::Density;
@@ -87,20 +87,26 @@ impl<'a, F: Formulation, D: Density<F::Measure>> Estimator<'a, F, D> {
         Self { view, query, density, formulation: std::marker::PhantomData }
     }
 
-    /// ⟨I⟩_prim = f(x)/p(x): one sample, and where it asked for a ray.
+    /// What x sees.
+    pub fn view(&self) -> &'a View<'a> {
+        self.view
+    }
+
+    /// ⟨I⟩_prim = f(x)/p(x): one sample each, and where it asked for a ray. Samples that are not wanted are worth zero.
     #[inline(always)]
-    pub fn primary<R: Real>(&self, xi: Xi<R>) -> (Rgb<R>, R::Mask) {
-        let (Sample { at, pdf }, some) = self.density.sample(self.view, xi).parts();
+    pub fn primary<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> (Rgb<R>, R::Mask) {
+        let (Sample { at, pdf }, some) = self.density.sample(from, xi).parts();
+        let some = some & from.wanted();
         if !some.any() {
             return (Rgb::splat([0.0; 3]), some);
         }
-        let worth = F::integrand(self.view, self.query, &at) / pdf;
+        let worth = F::integrand(&from.only(some), self.query, &at) / pdf;
         (worth.or_black(some), some & F::asks(&at))
     }
 
     /// The drawn point and its density, for tests and figures.
     pub fn sample<R: Real>(&self, xi: Xi<R>) -> Masked<Sample<F::Measure, R>, R> {
-        self.density.sample(self.view, xi)
+        self.density.sample(&self.view.from_x(), xi)
     }
 
     /// ⟨I⟩_sec = (1/N) Σ f(x_i)/p(x_i), with ξ_i from `stream`, by the best instructions of this machine.
@@ -152,13 +158,13 @@ impl<F: Formulation, D: Density<F::Measure>> Secondary<'_, '_, F, D> {
     /// Samples that lie side by side, from `offset` of the batch on.
     #[inline(always)]
     fn evaluate<R: Real>(&self, offset: usize, batch: &mut Batch) {
-        let (Rgb(worth), ray) = self.estimator.primary::<R>(Xi::load(&batch.words, offset));
-        let live = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
-        let Rgb(worth) = Rgb(worth).or_black(live);
+        let wanted = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
+        let from = self.estimator.view.from_x::<R>().only(wanted);
+        let (Rgb(worth), ray) = self.estimator.primary(&from, Xi::load(&batch.words, offset));
         for c in 0..3 {
             worth[c].store(&mut batch.worth[c][offset..]);
         }
-        batch.rays += u64::from((ray & live).count());
+        batch.rays += u64::from(ray.count());
     }
 }
 

@@ -27,7 +27,7 @@ use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::vector::Direction;
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::Vantage;
 
 use crate::rgb::Rgb;
 
@@ -88,7 +88,7 @@ impl<R: Real> Aim<R> {
 
     /// y = vp(x, Ψ); of a direction aimed at a target, only where y lies on it. A density aims all its samples or none.
     #[inline(always)]
-    pub fn vp(&self, view: &View) -> Masked<SurfacePoint<R>, R> {
+    pub fn vp(&self, view: &Vantage<R>) -> Masked<SurfacePoint<R>, R> {
         let aimed = !R::same(self.target, R::Word::splat(ANYWHERE));
         if aimed.any() { view.vp_on(self.target, self.psi) } else { view.vp(self.psi) }
     }

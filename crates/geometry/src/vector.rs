@@ -36,6 +36,13 @@ impl<R: Real> Vector<R> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    /// a × b.
+    #[inline(always)]
+    pub fn cross(self, b: Self) -> Self {
+        let a = self;
+        Self::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+    }
+
     /// |a|.
     #[inline(always)]
     pub fn length(self) -> R {

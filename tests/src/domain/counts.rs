@@ -19,7 +19,7 @@ pub fn chi_square<M: Measure, D: Density<M>>(
     let (none, n) = (domain.cells(), f64::from(draws.n));
     let mut observed = vec![0; none + 1];
     for index in 0..draws.n {
-        let (Sample { at, .. }, some) = density.sample::<f32>(view, draws.xi(index)).parts();
+        let (Sample { at, .. }, some) = density.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
         observed[if some { domain.cell_of(&at) } else { none }] += 1;
     }
     let mut expected = vec![0.0; none + 1];
@@ -32,5 +32,5 @@ pub fn chi_square<M: Measure, D: Density<M>>(
 
 /// p at a point; zero where no sample falls.
 pub fn value<M: Measure, D: Density<M>>(density: &D, view: &View, at: &M::Point<f32>) -> f64 {
-    density.pdf::<f32>(view, at).map(Pdf::value).or_zero().into()
+    density.pdf::<f32>(&view.from_x(), at).map(Pdf::value).or_zero().into()
 }

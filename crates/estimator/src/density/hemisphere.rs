@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
 use twoforms_geometry::vector::Direction;
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::Vantage;
 
 use super::Density;
 use crate::measure::{Aim, Pdf, Sample, SolidAngle};
@@ -22,14 +22,14 @@ pub struct CosineHemisphere;
 impl Density<SolidAngle> for UniformHemisphere {
     /// cosθ = u, φ = 2πv.
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let [u, v] = xi.uv();
         let sin_theta = ((R::one() - u) * (R::one() + u)).sqrt();
         drawn(self, view, Direction::polar(u, sin_theta, v))
     }
 
     #[inline(always)]
-    fn pdf<R: Real>(&self, _: &View, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+    fn pdf<R: Real>(&self, _: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
         Masked::new(Pdf::new(R::splat(1.0 / TAU)), R::zero().lt(aim.psi.cos_theta()))
     }
 }
@@ -37,13 +37,13 @@ impl Density<SolidAngle> for UniformHemisphere {
 impl Density<SolidAngle> for CosineHemisphere {
     /// cosθ = √u, φ = 2πv.
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let [u, v] = xi.uv();
         drawn(self, view, Direction::polar(u.sqrt(), (R::one() - u).sqrt(), v))
     }
 
     #[inline(always)]
-    fn pdf<R: Real>(&self, _: &View, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+    fn pdf<R: Real>(&self, _: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
         let cos_theta = aim.psi.cos_theta();
         Masked::new(Pdf::new(cos_theta * R::splat(FRAC_1_PI)), R::zero().lt(cos_theta))
     }
@@ -52,7 +52,7 @@ impl Density<SolidAngle> for CosineHemisphere {
 #[inline(always)]
 fn drawn<R: Real>(
     density: &impl Density<SolidAngle>,
-    view: &View,
+    view: &Vantage<R>,
     psi: Direction<R>,
 ) -> Masked<Sample<SolidAngle, R>, R> {
     let at = Aim::anywhere(psi);

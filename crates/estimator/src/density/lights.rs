@@ -3,7 +3,7 @@
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::Vantage;
 
 use super::Density;
 use crate::measure::{ANYWHERE, Aim, Pdf, Sample, SolidAngle, SurfaceArea};
@@ -27,21 +27,21 @@ pub struct TowardLights<'p, P> {
 
 impl<P: Pick> Density<SurfaceArea> for OnLights<'_, P> {
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
         let (target, u) = self.picker.pick::<R>(xi.pick());
-        let at = view.facet::<R>(target).point([u, xi.v()], target);
+        let at = view.facet(target).point([u, xi.v()], target);
         self.pdf(view, &at).map(|pdf| Sample { at, pdf })
     }
 
     #[inline(always)]
-    fn pdf<R: Real>(&self, _: &View, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
+    fn pdf<R: Real>(&self, _: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
         Masked::all(Pdf::new(self.picker.density::<R>(y.target)))
     }
 }
 
 impl<P: Pick> Density<SolidAngle> for TowardLights<'_, P> {
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &View, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let (Sample { at: y, pdf }, some) = self.lights.sample(view, xi).parts();
         let xy = Segment::to(&y);
         let at = Aim { psi: xy.psi, target: y.target };
@@ -49,10 +49,10 @@ impl<P: Pick> Density<SolidAngle> for TowardLights<'_, P> {
     }
 
     #[inline(always)]
-    fn pdf<R: Real>(&self, view: &View, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+    fn pdf<R: Real>(&self, view: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
         let aimed = !R::same(aim.target, R::Word::splat(ANYWHERE));
         let target = R::select_word(aimed, aim.target, R::Word::splat(0));
-        let y = view.facet::<R>(target).point_along(aim.psi, target);
+        let y = view.facet(target).point_along(aim.psi, target);
         let xy = Segment::to(&y);
         let (pdf, some) = self.lights.pdf(view, &y).parts();
         let drawn = some & aimed & xy.facing() & view.meets(target, aim.psi);

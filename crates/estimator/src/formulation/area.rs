@@ -7,7 +7,7 @@
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::{Segment, SurfacePoint};
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::Vantage;
 
 use super::Formulation;
 use crate::measure::{Integrand, SurfaceArea};
@@ -24,7 +24,7 @@ impl Formulation for Area {
 
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) G(x, y) V(x, y)
     #[inline(always)]
-    fn integrand<R: Real>(view: &View, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
+    fn integrand<R: Real>(view: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
         let v = view.visible(y, xy.facing());
         Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r() * xy.g())

@@ -5,7 +5,7 @@
 //! (Dutré, Bala, Bekaert, "Advanced Global Illumination", section 2.6: the hemispherical formulation, first bounce.)
 
 use twoforms_geometry::real::{Mask, Real};
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::Vantage;
 
 use super::Formulation;
 use crate::measure::{Aim, Integrand, SolidAngle};
@@ -22,7 +22,7 @@ impl Formulation for Hemisphere {
 
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x
     #[inline(always)]
-    fn integrand<R: Real>(view: &View, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
+    fn integrand<R: Real>(view: &Vantage<R>, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
         let y = aim.vp(view);
         let cos_x = aim.psi.cos_theta();
         Integrand::new(query.l_e(y) * query.f_r() * cos_x)

@@ -7,7 +7,7 @@ pub use area::Area;
 pub use hemisphere::Hemisphere;
 
 use twoforms_geometry::real::Real;
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::Vantage;
 
 use crate::measure::{Integrand, Measure};
 use crate::query::Query;
@@ -22,7 +22,7 @@ pub trait Formulation {
 
     /// The integrand at a point of the domain.
     fn integrand<R: Real>(
-        view: &View,
+        view: &Vantage<R>,
         query: &Query,
         at: &<Self::Measure as Measure>::Point<R>,
     ) -> Integrand<Self::Measure, R>;

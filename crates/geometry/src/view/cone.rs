@@ -1,44 +1,103 @@
-//! Convex cones with their apex at x.
+//! Convex cones of lines, as x sees a triangle or a target.
 
 use glam::DVec3;
 
 use crate::real::Real;
 use crate::vector::{Vector, round};
 
-/// A convex cone: the directions on the inner side of three or four planes through x. What stands between x and a target,
-/// and the outline of the target itself, are such cones.
+/// A half-line from x: from the origin of the frame, or from a point of a footprint around it.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<R> {
+    /// Its direction, of any length.
+    pub toward: Vector<R>,
+    /// Where it starts, if not at the origin.
+    pub start: Option<Vector<R>>,
+}
+
+/// The lines from x that pass through a convex polygon of three or four sides. What stands between x and a target, and
+/// the outline of the target itself, are such cones.
 ///
-/// An edge's plane is the cross product of its two vertices, taken in binary64 by two products and a difference, so
+/// A side that runs along e through a point p is, for lines from the origin, the plane with normal p × e. For a line that
+/// starts at o with direction d it is the side product of Plücker coordinates d·(p × e) + (o × d)·e, whose sign says on
+/// which side of each other the two lines pass. The normal is taken in binary64 by two products and a difference, so
 /// triangles on either side of an edge have exactly opposite planes, and a direction on the edge belongs to both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
-    planes: [[f32; 3]; 3],
-    fourth: Option<[f32; 3]>,
+    sides: [Side; 3],
+    fourth: Option<Side>,
+    /// The polygon's plane n·y = s, as n and s, where lines start on either side of it: beyond it, inside is outside.
+    straddled: Option<([f32; 3], f32)>,
 }
 
-impl Cone {
-    /// The cone with these inward plane normals (any length, local): three or four. Missing ones bound nothing.
-    pub(crate) fn new(normals: impl IntoIterator<Item = DVec3>) -> Self {
-        let mut normals = normals.into_iter().map(|normal| round(normal.normalize_or_zero()));
-        let planes = std::array::from_fn(|_| normals.next().unwrap_or_default());
-        Self { planes, fourth: normals.next() }
+/// A side of a polygon: the line through p along e, the inside on its positive side.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Side {
+    /// p × e.
+    normal: [f32; 3],
+    /// e, of length one.
+    along: [f32; 3],
+}
+
+impl Side {
+    /// The side along `e` with normal p × e, both times the same factor.
+    pub(crate) fn new(normal: DVec3, e: DVec3) -> Self {
+        let scale = 1.0 / e.length();
+        let scale = if scale.is_finite() { scale } else { 0.0 };
+        Self { normal: round(normal * scale), along: round(e * scale) }
     }
 
-    /// Whether a direction (of any length) lies in the cone or on its boundary.
     #[inline(always)]
-    pub fn holds<R: Real>(&self, toward: Vector<R>) -> R::Mask {
-        let [a, b, c] = self.planes;
-        let inside = inner(a, toward) & inner(b, toward) & inner(c, toward);
-        match self.fourth {
-            Some(d) => inside & inner(d, toward),
-            None => inside,
+    fn product<R: Real>(&self, line: &Line<R>) -> R {
+        let product = Vector::splat(self.normal).dot(line.toward);
+        match line.start {
+            Some(start) => product + start.cross(line.toward).dot(Vector::splat(self.along)),
+            None => product,
         }
     }
 }
 
-#[inline(always)]
-fn inner<R: Real>(normal: [f32; 3], toward: Vector<R>) -> R::Mask {
-    R::zero().le(Vector::splat(normal).dot(toward))
+impl Cone {
+    /// The cone within these sides: three or four.
+    pub(crate) fn new(sides: impl IntoIterator<Item = Side>) -> Self {
+        let mut sides = sides.into_iter();
+        let first = std::array::from_fn(|_| sides.next().unwrap_or_default());
+        Self { sides: first, fourth: sides.next(), straddled: None }
+    }
+
+    /// The same cone for lines that start on either side of the polygon's plane n·y = s; the sides are those seen from
+    /// where n·y < s.
+    pub(crate) fn straddled(self, n: DVec3, s: f64) -> Self {
+        Self { straddled: Some((round(n), s as f32)), ..self }
+    }
+
+    /// Whether a line passes through the polygon or its boundary.
+    #[inline(always)]
+    pub fn holds<R: Real>(&self, line: &Line<R>) -> R::Mask {
+        let zero = R::zero();
+        let [a, b, c] = [self.sides[0].product(line), self.sides[1].product(line), self.sides[2].product(line)];
+        let fourth = self.fourth.map(
+            #[inline(always)]
+            |side| side.product(line),
+        );
+        let mut inside = zero.le(a) & zero.le(b) & zero.le(c);
+        if let Some(d) = fourth {
+            inside = inside & zero.le(d);
+        }
+        let (Some((n, s)), Some(start)) = (self.straddled, line.start) else { return inside };
+        let mut mirrored = a.le(zero) & b.le(zero) & c.le(zero);
+        if let Some(d) = fourth {
+            mirrored = mirrored & d.le(zero);
+        }
+        let beyond = R::splat(s).lt(Vector::splat(n).dot(start));
+        (inside & !beyond) | (mirrored & beyond)
+    }
+}
+
+/// The sides of a polygon that is convex as x sees it, its corners in order in the frame of x.
+pub(crate) fn sides_of(corners: &[DVec3]) -> impl Iterator<Item = Side> + '_ {
+    let inward = orientation(corners);
+    let next = |k: usize| corners[(k + 1) % corners.len()];
+    (0..corners.len()).map(move |k| Side::new(inward * corners[k].cross(next(k)), inward * (next(k) - corners[k])))
 }
 
 /// The inward normals of the planes through x and the edges of a polygon that is convex as x sees it, its corners in

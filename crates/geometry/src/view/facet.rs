@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::cone::{Cone, edge_planes};
+use super::cone::{Cone, sides_of};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -46,6 +46,14 @@ impl<R: Real> Facet<R> {
             depth,
             triangle,
         }
+    }
+
+    /// The same facet from a point `start` of a footprint around x.
+    #[inline(always)]
+    pub(crate) fn seen_from(self, start: Vector<R>) -> Self {
+        let nearer = self.depth - self.toward.dot(start);
+        let depth = R::select(R::zero().lt(self.depth), nearer, self.depth);
+        Self { origin: self.origin - start, depth, ..self }
     }
 
     /// The point that two uniform numbers pick, uniform over the area. `target` is the facet's own index.
@@ -103,9 +111,20 @@ impl Wide {
         &self.corners[..self.count]
     }
 
-    /// The cone of directions that meet it.
+    /// The cone of lines that meet it.
     pub(crate) fn outline(&self) -> Cone {
-        Cone::new(edge_planes(self.corners()))
+        Cone::new(sides_of(self.corners()))
+    }
+
+    /// Whether the points of a footprint are all on x's side of the plane, or all in it where x is.
+    pub(crate) fn has_on_one_side(&self, footprint: &[DVec3]) -> bool {
+        let distance = |v: &DVec3| self.plane_distance() - self.toward.dot(*v);
+        let reach = footprint.iter().map(|v| v.length()).fold(0.0, f64::max);
+        if self.depth == 0.0 {
+            footprint.iter().all(|v| distance(v).abs() <= 1e-6 * reach)
+        } else {
+            footprint.iter().all(|v| distance(v) > 1e-6 * reach)
+        }
     }
 
     /// Whether x is on a side that emits.
@@ -128,9 +147,9 @@ impl Wide {
         self.toward
     }
 
-    /// Where the plane lies along a local direction, in units of its length.
-    pub(crate) fn distance_along(&self, local: DVec3) -> f64 {
-        self.plane_distance() / self.toward.dot(local)
+    /// Where the plane lies along a local line, in units of its direction.
+    pub(crate) fn distance_along(&self, start: DVec3, toward: DVec3) -> f64 {
+        (self.plane_distance() - self.toward.dot(start)) / self.toward.dot(toward)
     }
 
     pub(crate) fn row(&self) -> [f32; ROW] {

@@ -9,23 +9,23 @@ mod cone;
 mod facet;
 mod prospect;
 mod pyramid;
+mod shaft;
 mod sight;
+mod vantage;
 
 use glam::DVec3;
 
 use crate::frame::Frame;
 use crate::geometry::Geometry;
-use crate::masked::Masked;
-use crate::ray::Ray;
-use crate::real::{Mask, Real, Word};
-use crate::segment::SurfacePoint;
-use crate::vector::{Direction, Vector};
+use crate::real::{Mask, Real};
+use crate::vector::Vector;
 
 pub use cone::Cone;
 pub use facet::Facet;
 use facet::Wide;
 pub use prospect::Prospect;
 pub use sight::{Between, Sight};
+pub use vantage::Vantage;
 
 /// Most targets that a view looks at one by one; beyond, rays find them.
 const MANY_TARGETS: usize = 64;
@@ -49,10 +49,28 @@ pub struct View<'g> {
 impl<'g> View<'g> {
     /// The view from the origin of `frame`.
     pub fn new(geometry: &'g Geometry, frame: Frame, effort: Effort) -> Self {
-        let count = geometry.targets().len() as u32;
-        let look = |target| Sight::new(geometry, &frame, target, effort);
-        let sights = (count as usize <= MANY_TARGETS).then(|| (0..count).map(look).collect());
+        let sights = sights(geometry, &frame, &[DVec3::ZERO], effort);
         Self { geometry, frame, sights }
+    }
+
+    /// The view from every point of a footprint around the origin of `frame`: a convex polygon in the plane z = 0 of the
+    /// frame, in metres. None where its points are on different sides of a target's plane.
+    pub fn over(geometry: &'g Geometry, frame: Frame, footprint: &[DVec3]) -> Option<Self> {
+        let sights = sights(geometry, &frame, footprint, Effort::Gather)?;
+        let whole = sights.iter().all(|sight| sight.is_on_one_side_of(footprint));
+        whole.then_some(Self { geometry, frame, sights: Some(sights) })
+    }
+
+    /// All samples look from x.
+    #[inline(always)]
+    pub fn from_x<R: Real>(&self) -> Vantage<'_, R> {
+        Vantage { view: self, start: None, wanted: R::Mask::splat(true) }
+    }
+
+    /// Each sample looks from its own point of the footprint, in the frame of x.
+    #[inline(always)]
+    pub fn from_points<R: Real>(&self, start: Vector<R>) -> Vantage<'_, R> {
+        Vantage { view: self, start: Some(start), wanted: R::Mask::splat(true) }
     }
 
     /// Where x is and which way it faces.
@@ -68,145 +86,6 @@ impl<'g> View<'g> {
     /// What was gathered about each target, in order; `None` where there are too many and rays are cast instead.
     pub fn sights(&self) -> Option<&[Sight]> {
         self.sights.as_deref()
-    }
-
-    /// The targets as x meets them, by each sample's index.
-    #[inline(always)]
-    pub fn facet<R: Real>(&self, target: R::Word) -> Facet<R> {
-        Facet::from_row(R::gather(
-            target,
-            #[inline(always)]
-            |k| self.facet_row(k),
-        ))
-    }
-
-    /// Whether the line from x along Ψ meets a target, whatever stands between and whichever side it shows.
-    #[inline(always)]
-    pub fn meets<R: Real>(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
-        let all = R::Mask::splat(true);
-        R::each(
-            all,
-            target,
-            psi.vector().to_array(),
-            #[inline(always)]
-            |k, psi| self.outline(k).holds(Vector::from(psi)).then_some(k),
-        )
-        .0
-    }
-
-    /// y = vp(x, Ψ) where y is on the emitting side of a target; nothing where Ψ meets no surface, a surface that does
-    /// not emit, or the dark side of one that does.
-    #[inline(always)]
-    pub fn vp<R: Real>(&self, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
-        let (reached, target) = match &self.sights {
-            Some(sights) => self.reached_by_planes(sights, psi),
-            None => R::each(
-                R::Mask::splat(true),
-                R::Word::splat(0),
-                psi.vector().to_array(),
-                #[inline(always)]
-                |_, psi| self.reached_by_ray(psi),
-            ),
-        };
-        let target = R::select_word(reached, target, R::Word::splat(0));
-        if !reached.any() {
-            let nowhere = SurfacePoint { position: psi.vector(), depth: R::zero(), target };
-            return Masked::new(nowhere, reached);
-        }
-        Masked::new(self.facet::<R>(target).point_along(psi, target), reached)
-    }
-
-    /// y = vp(x, Ψ) for a direction aimed at a point of `target`: where Ψ meets its plane, if nothing stands between.
-    ///
-    /// That Ψ points at the target is taken from the caller, who drew the point: a direction rounded to binary32 may
-    /// leave a small light near its edges, and those samples would be lost.
-    #[inline(always)]
-    pub fn vp_on<R: Real>(&self, target: R::Word, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
-        let y = self.facet::<R>(target).point_along(psi, target);
-        let facing = R::zero().lt(y.depth) & R::zero().lt(psi.cos_theta());
-        Masked::new(y, facing & self.visible(&y, facing))
-    }
-
-    /// V(x, y): whether nothing stands between x and y. Where y is below x's horizon or x behind y the answer means
-    /// nothing; both make the sample worth zero.
-    #[inline(always)]
-    pub fn visible<R: Real>(&self, y: &SurfacePoint<R>, asked: R::Mask) -> R::Mask {
-        let Some(sights) = &self.sights else {
-            return self.visible_by_ray(y, asked);
-        };
-        let mut visible = R::Mask::splat(false);
-        for (k, sight) in sights.iter().enumerate() {
-            let here = asked & R::same(y.target, R::Word::splat(k as u32));
-            if here.any() {
-                visible = visible | self.unblocked(sight, y.position, y.target, here);
-            }
-        }
-        visible
-    }
-
-    /// The sights are disjoint but for edges and blocked by each other, so the first that is reached is the one.
-    #[inline(always)]
-    fn reached_by_planes<R: Real>(&self, sights: &[Sight], psi: Direction<R>) -> (R::Mask, R::Word) {
-        let (mut reached, mut found) = (R::Mask::splat(false), R::Word::splat(0));
-        for (k, sight) in sights.iter().enumerate() {
-            if !sight.lit() {
-                continue;
-            }
-            let inside = !reached & sight.outline().holds(psi.vector());
-            if inside.any() {
-                let target = R::Word::splat(k as u32);
-                let seen = self.unblocked(sight, psi.vector(), target, inside);
-                (reached, found) = (reached | seen, R::select_word(seen, target, found));
-            }
-        }
-        (reached, found)
-    }
-
-    /// Whether nothing stands between x and the sight's target in a direction (of any length), where `asked`.
-    #[inline(always)]
-    fn unblocked<R: Real>(&self, sight: &Sight, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
-        match sight.between() {
-            Between::Gathered(cones) => {
-                let mut clear = asked;
-                for cone in cones {
-                    clear = clear & !cone.holds(toward);
-                }
-                clear
-            }
-            Between::Unknown => self.clear_by_ray(toward, target, asked),
-        }
-    }
-
-    fn visible_by_ray<R: Real>(&self, y: &SurfacePoint<R>, asked: R::Mask) -> R::Mask {
-        self.clear_by_ray(y.position, y.target, asked)
-    }
-
-    #[inline(always)]
-    fn clear_by_ray<R: Real>(&self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
-        R::each(
-            asked,
-            target,
-            toward.to_array(),
-            #[inline(always)]
-            |k, toward| self.clear(toward, k).then_some(k),
-        )
-        .0
-    }
-
-    /// Casts a ray in a local direction toward the plane of a target.
-    fn clear(&self, toward: [f32; 3], target: u32) -> bool {
-        let local = DVec3::from_array(toward.map(f64::from));
-        let before = self.wide(target).distance_along(local);
-        let ray = Ray::new(self.frame.x(), self.frame.to_world(local));
-        self.geometry.visible(&ray, before, target)
-    }
-
-    /// The target that a local direction reaches first of all surfaces, on a side that emits.
-    fn reached_by_ray(&self, psi: [f32; 3]) -> Option<u32> {
-        let local = DVec3::from_array(psi.map(f64::from));
-        let hit = self.geometry.vp(&Ray::new(self.frame.x(), self.frame.to_world(local)))?;
-        let target = self.geometry.target_of(hit.triangle)?;
-        self.wide(target).faces_x().then_some(target)
     }
 
     fn outline(&self, target: u32) -> Cone {
@@ -230,4 +109,11 @@ impl<'g> View<'g> {
             None => Facet::wide(self.geometry, &self.frame, target),
         }
     }
+}
+
+/// What is seen of each target; nothing where there are too many.
+fn sights(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], effort: Effort) -> Option<Vec<Sight>> {
+    let count = geometry.targets().len();
+    let look = |target| Sight::new(geometry, frame, footprint, target, effort);
+    (count <= MANY_TARGETS).then(|| (0..count as u32).map(look).collect())
 }

@@ -29,7 +29,7 @@ impl Prospect {
         if facet.lit() {
             let pyramid = Pyramid::new(&facet);
             let _ = pyramid.visit(geometry, frame, target, usize::MAX, |corners| {
-                blockers.extend(pyramid.cone(corners).map(|_| corners));
+                blockers.extend(pyramid.holds(corners).then_some(corners));
                 ControlFlow::Continue(())
             });
         }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::cone::{Cone, edge_planes};
+use super::cone::edge_planes;
 use super::facet::Wide;
 use crate::blocking;
 use crate::frame::Frame;
@@ -50,22 +50,22 @@ impl<'f> Pyramid<'f> {
         flow
     }
 
-    /// The cone of directions in which a triangle stands between x and the target, if it meets the pyramid at all.
+    /// Whether a triangle stands between x and the target in some direction.
     ///
     /// Along ω the triangle's plane n·y = s lies before the target's m·y = d where s (m·ω) < d (n·ω), that is on one side
     /// of the plane through x with normal d n − s m: needed only for a triangle that crosses the target's plane.
-    pub(crate) fn cone(&self, corners: [DVec3; 3]) -> Option<Cone> {
+    pub(crate) fn holds(&self, corners: [DVec3; 3]) -> bool {
         let (m, d) = (self.facet.toward(), self.facet.plane_distance());
         let below_horizon = corners.iter().all(|c| c.z <= 0.0);
         let behind = corners.iter().all(|c| m.dot(*c) >= d);
         let outside = self.sides.iter().any(|inward| corners.iter().all(|c| inward.dot(*c) <= 0.0));
         if below_horizon || behind || outside {
-            return None;
+            return false;
         }
         let crosses = corners.iter().any(|c| m.dot(*c) > d);
         let planes: Vec<DVec3> = edge_planes(&corners).chain(crosses.then(|| in_front(corners, m, d))).collect();
         let misses = planes.iter().any(|inward| self.visible.iter().all(|v| inward.dot(*v) <= 0.0));
-        (!misses).then(|| Cone::new(planes))
+        !misses
     }
 
     /// The pyramid in world space.

@@ -2,10 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
+
 use super::Effort;
 use super::cone::Cone;
 use super::facet::{Facet, ROW, Wide};
-use super::pyramid::Pyramid;
+use super::shaft::Shaft;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
 
@@ -34,11 +36,12 @@ pub enum Between {
 }
 
 impl Sight {
-    pub(crate) fn new(geometry: &Geometry, frame: &Frame, target: u32, effort: Effort) -> Self {
+    /// What is seen of a target from a footprint: a convex polygon in the plane of x, or x alone.
+    pub(crate) fn new(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32, effort: Effort) -> Self {
         let facet = Facet::wide(geometry, frame, target);
         let lit = facet.lit();
         let between = match effort {
-            Effort::Gather if lit => gather(geometry, frame, target, &facet),
+            Effort::Gather if lit => gather(geometry, frame, footprint, target, &facet),
             Effort::Gather => Between::Gathered(Vec::new()),
             Effort::Cast => Between::Unknown,
         };
@@ -49,6 +52,11 @@ impl Sight {
     #[inline(always)]
     pub fn lit(&self) -> bool {
         self.lit
+    }
+
+    /// Whether every point of a footprint is on the same side of the target's plane, or all of it in the plane.
+    pub(crate) fn is_on_one_side_of(&self, footprint: &[DVec3]) -> bool {
+        self.facet.has_on_one_side(footprint)
     }
 
     /// The directions from x to the target.
@@ -74,11 +82,11 @@ impl Sight {
 }
 
 /// Everything that can stand between x and the visible part of a target, as cones.
-fn gather(geometry: &Geometry, frame: &Frame, target: u32, facet: &Wide) -> Between {
-    let pyramid = Pyramid::new(facet);
+fn gather(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32, facet: &Wide) -> Between {
+    let shaft = Shaft::new(facet, footprint);
     let mut cones = Vec::new();
-    let flow = pyramid.visit(geometry, frame, target, MANY_CANDIDATES, |corners| {
-        cones.extend(pyramid.cone(corners));
+    let flow = shaft.visit(geometry, frame, target, MANY_CANDIDATES, |corners| {
+        cones.extend(shaft.cone(corners));
         if cones.len() > MANY_BLOCKERS { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     if flow.is_break() { Between::Unknown } else { Between::Gathered(cones) }

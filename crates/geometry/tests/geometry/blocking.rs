@@ -37,9 +37,9 @@ fn seen(geometry: &Geometry, x: DVec3, y: DVec3) -> bool {
     for effort in [Effort::Gather, Effort::Cast] {
         let view = View::new(geometry, frame, effort);
         let psi = twoforms_geometry::vector::Direction::polar(1.0, 0.0, 0.0);
-        let (point, reached) = view.vp::<f32>(psi).parts();
+        let (point, reached) = view.from_x::<f32>().vp(psi).parts();
         assert_eq!(reached, by_ray, "vp against V from {x} to {y}, {effort:?}");
-        assert!(!reached || view.visible(&point, true), "V against vp from {x} to {y}, {effort:?}");
+        assert!(!reached || view.from_x::<f32>().visible(&point, true), "V against vp from {x} to {y}, {effort:?}");
     }
     by_ray
 }

@@ -54,7 +54,7 @@ fn meshes_of_one_point_or_of_nothing_answer() {
         assert_eq!(geometry.vp(&Ray::new(DVec3::ZERO, DVec3::ONE)), None);
         let view = View::new(&geometry, Frame::new(DVec3::ZERO, DVec3::Z), Effort::Gather);
         assert!(view.sights().is_some_and(<[_]>::is_empty));
-        assert!(!view.vp::<f32>(Direction::polar(1.0, 0.0, 0.0)).some());
+        assert!(!view.from_x::<f32>().vp(Direction::polar(1.0, 0.0, 0.0)).some());
     }
 }
 
@@ -73,16 +73,16 @@ fn questions(geometry: &Geometry, frame: Frame, draws: &mut Draws) {
     for effort in [Effort::Gather, Effort::Cast] {
         let view = View::new(geometry, frame, effort);
         for k in 0..geometry.targets().len() as u32 {
-            let y = view.facet::<f32>(k).point([draws.unit_f32(), draws.unit_f32()], k);
+            let y = view.from_x::<f32>().facet(k).point([draws.unit_f32(), draws.unit_f32()], k);
             let xy = Segment::to(&y);
             if xy.facing() {
                 assert!(xy.g().is_finite() && xy.d_omega_d_area().is_finite(), "{xy:?}");
-                let _ = view.visible(&y, true);
+                let _ = view.from_x::<f32>().visible(&y, true);
             }
             for _ in 0..4 {
                 let cos = draws.unit_f32();
                 let psi = Direction::polar(cos, (1.0 - cos * cos).sqrt(), draws.unit_f32());
-                let (y, reached) = view.vp(psi).parts();
+                let (y, reached) = view.from_x::<f32>().vp(psi).parts();
                 assert!(!reached || Segment::to(&y).g().is_finite(), "{y:?}");
                 assert!(!reached || y.depth > 0.0, "{y:?}");
             }
@@ -126,9 +126,9 @@ fn x_in_the_plane_of_a_light_gets_nothing_from_it() {
         let geometry = Geometry::new(mesh, vec![target]);
         let x = a + (b - a) * draws.between(-2.0, 2.0) + (c - a) * draws.between(-2.0, 2.0);
         let view = View::new(&geometry, Frame::new(x, draws.direction()), Effort::Gather);
-        let y = view.facet::<f32>(0).point([draws.unit_f32(), draws.unit_f32()], 0);
+        let y = view.from_x::<f32>().facet(0).point([draws.unit_f32(), draws.unit_f32()], 0);
         assert!(!Segment::to(&y).facing(), "{y:?} from {x}");
-        assert!(!view.vp(Segment::to(&y).psi).some());
+        assert!(!view.from_x::<f32>().vp(Segment::to(&y).psi).some());
     }
 }
 

@@ -19,7 +19,7 @@ fn directions_are_unit() {
         let polar = Direction::polar(cos, sin, draws.unit_f32()).vector();
         assert!((length(polar) - 1.0).abs() < 2e-7, "{polar:?} has length {}", length(polar));
         let v = Vector::from(draws.in_cube().as_vec3().to_array());
-        let of = Direction::of(v, v.length()).vector();
+        let of = Direction::of(v, 1.0 / v.length()).vector();
         assert!((length(of) - 1.0).abs() < 2e-7, "{of:?} has length {}", length(of));
     }
 }

@@ -60,7 +60,7 @@ fn points_lie_on_the_target() {
         let lone = Lone::new(&mut draws, round % 2 == 0, DVec3::ZERO);
         let frame = Frame::new(draws.in_cube() * 3.0, draws.direction());
         let view = View::new(&lone.geometry, frame, Effort::Cast);
-        let facet = view.facet::<f32>(0);
+        let facet = view.from_x::<f32>().facet(0);
         for _ in 0..50 {
             let y = facet.point([draws.unit_f32(), draws.unit_f32()], 0);
             let ([s, t], lift) = lone.coordinates(world(&frame, &y));
@@ -95,7 +95,7 @@ fn points_are_uniform_over_the_area() {
         let parallelogram = round % 2 == 0;
         let lone = Lone::new(&mut draws, parallelogram, DVec3::ZERO);
         let frame = Frame::new(draws.in_cube() * 2.0, draws.direction());
-        let facet = View::new(&lone.geometry, frame, Effort::Cast).facet::<f32>(0);
+        let facet = View::new(&lone.geometry, frame, Effort::Cast).from_x::<f32>().facet(0);
         let points = 20_000;
         let mut counts = [0_u32; 64];
         for _ in 0..points {
@@ -114,7 +114,7 @@ fn the_point_along_psi_is_the_same_point() {
     for round in 0..2000 {
         let lone = Lone::new(&mut draws, round % 2 == 0, DVec3::ZERO);
         let frame = Frame::new(draws.in_cube() * 3.0, draws.direction());
-        let facet = View::new(&lone.geometry, frame, Effort::Cast).facet::<f32>(0);
+        let facet = View::new(&lone.geometry, frame, Effort::Cast).from_x::<f32>().facet(0);
         for _ in 0..50 {
             let y = facet.point([draws.unit_f32(), draws.unit_f32()], 0);
             let xy = Segment::to(&y);
@@ -135,7 +135,8 @@ fn a_segment_says_the_same_as_its_points() {
         let lone = Lone::new(&mut draws, round % 2 == 0, DVec3::ZERO);
         let frame = Frame::new(draws.in_cube() * 3.0, draws.direction());
         let y = View::new(&lone.geometry, frame, Effort::Cast)
-            .facet::<f32>(0)
+            .from_x::<f32>()
+            .facet(0)
             .point([draws.unit_f32(), draws.unit_f32()], 0);
         let xy = Segment::to(&y);
         let v = world(&frame, &y) - frame.x();
@@ -166,7 +167,7 @@ fn the_jacobian_adds_up_to_the_solid_angle() {
     for round in 0..200 {
         let lone = Lone::new(&mut draws, round % 2 == 0, DVec3::new(0.0, 0.0, 3.0));
         let frame = Frame::new(draws.in_cube(), draws.direction());
-        let facet = View::new(&lone.geometry, frame, Effort::Cast).facet::<f32>(0);
+        let facet = View::new(&lone.geometry, frame, Effort::Cast).from_x::<f32>().facet(0);
         let middle = |k: u32| (k as f32 + 0.5) / steps as f32;
         let cells = (0..steps * steps).map(|k| [middle(k / steps), middle(k % steps)]);
         let sum: f64 = cells.map(|uv| f64::from(Segment::to(&facet.point(uv, 0)).d_omega_d_area())).sum();

@@ -54,10 +54,10 @@ fn scaled_by_a_power_of_two_the_view_gives_the_same_bits() {
             let view_there = View::new(&small, Frame::new(x * scale, n), effort);
             for _ in 0..50 {
                 let uv = [draws.unit_f32(), draws.unit_f32()];
-                let y = view.facet::<f32>(0).point(uv, 0);
-                let y_there = view_there.facet::<f32>(0).point(uv, 0);
+                let y = view.from_x::<f32>().facet(0).point(uv, 0);
+                let y_there = view_there.from_x::<f32>().facet(0).point(uv, 0);
                 assert_eq!(y.position * scale_f32, y_there.position);
-                assert_eq!(view.visible(&y, true), view_there.visible(&y_there, true));
+                assert_eq!(view.from_x::<f32>().visible(&y, true), view_there.from_x::<f32>().visible(&y_there, true));
                 let psi = Segment::to(&y).psi;
                 assert_eq!(psi, Segment::to(&y_there).psi);
                 same_reached(&view, &view_there, psi, scale_f32);
@@ -73,7 +73,8 @@ fn scaled_by_a_power_of_two_the_view_gives_the_same_bits() {
 }
 
 fn same_reached(view: &View, view_there: &View, psi: Direction<f32>, scale: f32) {
-    let ((y, some), (y_there, some_there)) = (view.vp(psi).parts(), view_there.vp(psi).parts());
+    let ((y, some), (y_there, some_there)) =
+        (view.from_x::<f32>().vp(psi).parts(), view_there.from_x::<f32>().vp(psi).parts());
     assert_eq!(some, some_there);
     if some {
         assert_eq!((y.position * scale, y.depth * scale), (y_there.position, y_there.depth));

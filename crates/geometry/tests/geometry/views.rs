@@ -116,7 +116,7 @@ fn wide(v: Vector<f32>) -> DVec3 {
 /// Points on the targets that x and they face each other at.
 fn facing_points(view: &View, draws: &mut Draws, each: usize) -> Vec<SurfacePoint<f32>> {
     let count = view.geometry().targets().len() as u32;
-    let mut point = |k| view.facet::<f32>(k).point([draws.unit_f32(), draws.unit_f32()], k);
+    let mut point = |k| view.from_x::<f32>().facet(k).point([draws.unit_f32(), draws.unit_f32()], k);
     let points = (0..count).flat_map(|k| vec![k; each]).map(&mut point);
     points.filter(|y| Segment::to(y).facing()).collect()
 }
@@ -131,14 +131,14 @@ fn directions(points: &[SurfacePoint<f32>], draws: &mut Draws, spread: usize) ->
 }
 
 fn reached(view: &View, psi: Direction<f32>) -> Option<u32> {
-    let (y, some) = view.vp(psi).parts();
+    let (y, some) = view.from_x::<f32>().vp(psi).parts();
     some.then_some(y.target)
 }
 
 /// What brute force reaches, if on a side that emits.
 fn reached_brute(brute: &Geometry, view: &View, psi: Direction<f32>) -> Option<u32> {
     let direction = view.frame().to_world(wide(psi.vector()));
-    let lit = |&k: &u32| view.facet::<f32>(k).point_along(psi, k).depth > 0.0;
+    let lit = |&k: &u32| view.from_x::<f32>().facet(k).point_along(psi, k).depth > 0.0;
     oracle::reached(brute, view.frame().x(), direction).filter(lit)
 }
 
@@ -148,9 +148,9 @@ fn compare(view: &View, other: &View, brute: &Geometry, draws: &mut Draws, talli
     let points = facing_points(view, draws, 100);
     for y in &points {
         let as_option = |seen: bool| seen.then_some(y.target);
-        let seen = as_option(view.visible(y, true));
+        let seen = as_option(view.from_x::<f32>().visible(y, true));
         let truth = oracle::visible(brute, x, x + view.frame().to_world(wide(y.position)), y.target);
-        tallies[0].count(seen, as_option(other.visible(y, true)), || change(y.position));
+        tallies[0].count(seen, as_option(other.from_x::<f32>().visible(y, true)), || change(y.position));
         tallies[1].count(seen, as_option(truth), || change(y.position));
     }
     for psi in directions(&points, draws, 200) {
@@ -253,7 +253,7 @@ fn tiled_blockers_let_nothing_through() {
         let view = View::new(&geometry, Frame::new(x, DVec3::Z), Effort::Gather);
         assert!(matches!(view.sights().expect("one target")[0].between(), Between::Gathered(c) if !c.is_empty()));
         for y in facing_points(&view, &mut draws, 2000) {
-            assert!(!view.visible(&y, true), "seen through the joint at {:?} from {x}", y.position);
+            assert!(!view.from_x::<f32>().visible(&y, true), "seen through the joint at {:?} from {x}", y.position);
             assert_eq!(reached(&view, Segment::to(&y).psi), None);
         }
     }

@@ -1,0 +1,227 @@
+//! Where samples look from, and what they see.
+
+use glam::DVec3;
+
+use super::View;
+use super::cone::Line;
+use super::facet::Facet;
+use super::sight::{Between, Sight};
+use crate::masked::Masked;
+use crate::ray::Ray;
+use crate::real::{Mask, Real, Word};
+use crate::segment::SurfacePoint;
+use crate::vector::{Direction, Vector};
+
+/// Where samples look from: all from x, or each from its own point of a footprint around x. What is seen is said from
+/// there, in the axes of the frame of x.
+#[derive(Clone, Copy)]
+pub struct Vantage<'v, R: Real> {
+    pub(super) view: &'v View<'v>,
+    pub(super) start: Option<Vector<R>>,
+    pub(super) wanted: R::Mask,
+}
+
+impl<'v, R: Real> Vantage<'v, R> {
+    /// Only these samples count; of others nothing is asked that costs a ray.
+    #[inline(always)]
+    pub fn only(self, wanted: R::Mask) -> Self {
+        Self { wanted: self.wanted & wanted, ..self }
+    }
+
+    /// The samples that count.
+    #[inline(always)]
+    pub fn wanted(&self) -> R::Mask {
+        self.wanted
+    }
+
+    /// What x sees.
+    #[inline(always)]
+    pub fn view(&self) -> &'v View<'v> {
+        self.view
+    }
+
+    /// The targets as samples meet them, by each sample's index.
+    #[inline(always)]
+    pub fn facet(&self, target: R::Word) -> Facet<R> {
+        let view = self.view;
+        let facet = Facet::from_row(R::gather(
+            target,
+            #[inline(always)]
+            |k| view.facet_row(k),
+        ));
+        match self.start {
+            Some(start) => facet.seen_from(start),
+            None => facet,
+        }
+    }
+
+    /// Whether the line along Ψ meets a target, whatever stands between and whichever side it shows.
+    #[inline(always)]
+    pub fn meets(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
+        let view = self.view;
+        self.each(
+            self.wanted,
+            target,
+            psi.vector(),
+            #[inline(always)]
+            |k, line| view.outline(k).holds(&line).then_some(k),
+        )
+        .0
+    }
+
+    /// y = vp(x, Ψ) where y is on the emitting side of a target; nothing where Ψ meets no surface, a surface that does
+    /// not emit, or the dark side of one that does.
+    #[inline(always)]
+    pub fn vp(&self, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
+        let view = self.view;
+        let (reached, target) = match &view.sights {
+            Some(sights) => self.reached_by_planes(sights, psi),
+            None => self.each(
+                self.wanted,
+                R::Word::splat(0),
+                psi.vector(),
+                #[inline(always)]
+                |_, line| view.reached_by_ray(&line),
+            ),
+        };
+        let target = R::select_word(reached, target, R::Word::splat(0));
+        if !reached.any() {
+            let nowhere = SurfacePoint { position: psi.vector(), depth: R::zero(), target };
+            return Masked::new(nowhere, reached);
+        }
+        Masked::new(self.facet(target).point_along(psi, target), reached)
+    }
+
+    /// y = vp(x, Ψ) for a direction aimed at a point of `target`: where Ψ meets its plane, if nothing stands between.
+    ///
+    /// That Ψ points at the target is taken from the caller, who drew the point: a direction rounded to binary32 may
+    /// leave a small light near its edges, and those samples would be lost.
+    #[inline(always)]
+    pub fn vp_on(&self, target: R::Word, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
+        let y = self.facet(target).point_along(psi, target);
+        let facing = R::zero().lt(y.depth) & R::zero().lt(psi.cos_theta());
+        Masked::new(y, facing & self.visible(&y, facing))
+    }
+
+    /// V(x, y): whether nothing stands between x and y. Where y is below x's horizon or x behind y the answer means
+    /// nothing; both make the sample worth zero.
+    #[inline(always)]
+    pub fn visible(&self, y: &SurfacePoint<R>, asked: R::Mask) -> R::Mask {
+        let asked = asked & self.wanted;
+        let Some(sights) = &self.view.sights else {
+            return self.clear_by_ray(y.position, y.target, asked);
+        };
+        let mut visible = R::Mask::splat(false);
+        for (k, sight) in sights.iter().enumerate() {
+            let here = asked & R::same(y.target, R::Word::splat(k as u32));
+            if here.any() {
+                visible = visible | self.unblocked(sight, y.position, y.target, here);
+            }
+        }
+        visible
+    }
+
+    /// The sights are disjoint but for edges and blocked by each other, so the first that is reached is the one.
+    #[inline(always)]
+    fn reached_by_planes(&self, sights: &[Sight], psi: Direction<R>) -> (R::Mask, R::Word) {
+        let line = Line { toward: psi.vector(), start: self.start };
+        let (mut reached, mut found) = (R::Mask::splat(false), R::Word::splat(0));
+        for (k, sight) in sights.iter().enumerate() {
+            if !sight.lit() {
+                continue;
+            }
+            let inside = self.wanted & !reached & sight.outline().holds(&line);
+            if inside.any() {
+                let target = R::Word::splat(k as u32);
+                let seen = self.unblocked(sight, psi.vector(), target, inside);
+                (reached, found) = (reached | seen, R::select_word(seen, target, found));
+            }
+        }
+        (reached, found)
+    }
+
+    /// Whether nothing stands before the sight's target in a direction (of any length), where `asked`.
+    #[inline(always)]
+    fn unblocked(&self, sight: &Sight, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+        match sight.between() {
+            Between::Gathered(cones) => {
+                let line = Line { toward, start: self.start };
+                let mut clear = asked;
+                for cone in cones {
+                    clear = clear & !cone.holds(&line);
+                }
+                clear
+            }
+            Between::Unknown => self.clear_by_ray(toward, target, asked),
+        }
+    }
+
+    #[inline(always)]
+    fn clear_by_ray(&self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+        let view = self.view;
+        self.each(
+            asked,
+            target,
+            toward,
+            #[inline(always)]
+            |k, line| view.clear(&line, k).then_some(k),
+        )
+        .0
+    }
+
+    /// Asks a question about the line of each sample where `asked`.
+    #[inline(always)]
+    fn each(
+        &self,
+        asked: R::Mask,
+        word: R::Word,
+        toward: Vector<R>,
+        mut question: impl FnMut(u32, Line<f32>) -> Option<u32>,
+    ) -> (R::Mask, R::Word) {
+        let toward = toward.to_array();
+        match self.start {
+            None => R::each(
+                asked,
+                word,
+                toward,
+                #[inline(always)]
+                |k, toward| question(k, Line { toward: Vector::from(toward), start: None }),
+            ),
+            Some(start) => R::each(
+                asked,
+                word,
+                [start.x, start.y, start.z, toward[0], toward[1], toward[2]],
+                #[inline(always)]
+                |k, [x, y, z, u, v, w]| {
+                    question(k, Line { toward: Vector::new(u, v, w), start: Some(Vector::new(x, y, z)) })
+                },
+            ),
+        }
+    }
+}
+
+impl View<'_> {
+    /// Casts a ray along a local line toward the plane of a target.
+    fn clear(&self, line: &Line<f32>, target: u32) -> bool {
+        let (start, toward) = wide(line);
+        let before = self.wide(target).distance_along(start, toward);
+        self.geometry.visible(&self.ray(start, toward), before, target)
+    }
+
+    /// The target that a local line reaches first of all surfaces, on a side that emits.
+    fn reached_by_ray(&self, line: &Line<f32>) -> Option<u32> {
+        let (start, toward) = wide(line);
+        let hit = self.geometry.vp(&self.ray(start, toward))?;
+        let target = self.geometry.target_of(hit.triangle)?;
+        self.wide(target).faces_x().then_some(target)
+    }
+
+    fn ray(&self, start: DVec3, toward: DVec3) -> Ray {
+        Ray::new(self.frame.x() + self.frame.to_world(start), self.frame.to_world(toward))
+    }
+}
+
+fn wide(line: &Line<f32>) -> (DVec3, DVec3) {
+    let wide = |v: Vector<f32>| DVec3::from_array(v.to_array().map(f64::from));
+    (line.start.map_or(DVec3::ZERO, wide), wide(line.toward))
+}

@@ -214,7 +214,7 @@ impl Estimate {
             low = W::select(hit & luminance.lt(low), luminance, low);
             high = W::select(hit & high.lt(luminance), luminance, high);
         }
-        let moments = Moments::of_padded::<W>(batch.length, &mut luminances[..length]);
+        let moments = Moments::by::<W>(&luminances[..batch.length]);
         if !moments.mean.is_finite() {
             return Err(batch.first_not_finite());
         }

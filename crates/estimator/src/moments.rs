@@ -25,32 +25,34 @@ pub struct Moments {
 impl Moments {
     /// The moments of these values, in two passes.
     pub fn of(values: &[f64]) -> Self {
-        let mut padded = values.to_vec();
-        padded.resize(values.len().next_multiple_of(EIGHT), 0.0);
-        Self::of_padded::<Eight>(values.len(), &mut padded)
+        Self::by::<Eight>(values)
     }
 
-    /// The moments of the first `n` values; what follows, to a multiple of eight, is zero, and is overwritten.
+    /// The same moments by other instructions.
     #[inline(always)]
-    pub(crate) fn of_padded<W: Wide>(n: usize, values: &mut [f64]) -> Self {
-        if n == 0 {
+    pub fn by<W: Wide>(values: &[f64]) -> Self {
+        if values.is_empty() {
             return Self::default();
         }
+        let (whole, rest) = values.split_at(values.len() - values.len() % EIGHT);
+        let padded = |padding: f64| {
+            let mut last = [padding; EIGHT];
+            last[..rest.len()].copy_from_slice(rest);
+            W::load(&last)
+        };
         let mut total = W::splat(0.0);
-        for k in (0..values.len()).step_by(EIGHT) {
-            total = total + W::load(&values[k..]);
+        for k in (0..whole.len()).step_by(EIGHT) {
+            total = total + W::load(&whole[k..]);
         }
-        let mean = total.sum() / n as f64;
-        for place in &mut values[n..] {
-            *place = mean;
-        }
+        let n = values.len() as f64;
+        let mean = (total + padded(0.0)).sum() / n;
         let (mut m2, mut m3, mut m4) = (W::splat(0.0), W::splat(0.0), W::splat(0.0));
-        for k in (0..values.len()).step_by(EIGHT) {
-            let d = W::load(&values[k..]) - W::splat(mean);
+        for k in (0..=whole.len()).step_by(EIGHT) {
+            let d = if k < whole.len() { W::load(&whole[k..]) } else { padded(mean) } - W::splat(mean);
             let d2 = d * d;
             (m2, m3, m4) = (m2 + d2, m3 + d2 * d, m4 + d2 * d2);
         }
-        Self { n: n as f64, mean, m2: m2.sum(), m3: m3.sum(), m4: m4.sum() }
+        Self { n, mean, m2: m2.sum(), m3: m3.sum(), m4: m4.sum() }
     }
 
     /// Σ(w − mean)²/(n − 1): the sample variance; `None` for fewer than two values.

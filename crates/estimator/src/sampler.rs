@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use twoforms_geometry::real::Real;
 
-use crate::xi::{DIMENSIONS, Draws, Words, Xi};
+use crate::xi::{DIMENSIONS, Draws, Key, Words, Xi};
 
 /// How ξ_1 … ξ_N are drawn. Every sampler is a function of its key, and every strategy can use it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,6 +23,14 @@ impl Sampler {
     pub fn fill<R: Real, const N: usize>(self, draws: &Draws, first: u32, n: usize, words: &mut Words<N>) {
         match self {
             Self::Independent => draws.independent::<R, N>(first, n, words),
+        }
+    }
+
+    /// ξ of one sample of each of many estimates, whose streams lie side by side.
+    #[inline(always)]
+    pub fn across<R: Real>(self, key: Key, streams: [R::Word; 2], index: u32) -> Xi<R> {
+        match self {
+            Self::Independent => Xi::independent(key, streams, index),
         }
     }
 }

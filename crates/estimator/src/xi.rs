@@ -80,6 +80,15 @@ impl<R: Real> Xi<R> {
         Self { words }
     }
 
+    /// ξ of one sample of each of many estimates by independent draws: those of [`Draws::independent`].
+    #[inline(always)]
+    pub fn independent(key: Key, [one, other]: [R::Word; 2], index: u32) -> Self {
+        const HALF: u32 = RUN as u32;
+        let counter = index / (2 * HALF) * HALF + index % HALF;
+        let [a, b, c, d] = philox4x32_10([Word::splat(counter), Word::splat(0), one, other], key.0);
+        Self { words: if index / HALF % 2 == 0 { [a, b] } else { [c, d] } }
+    }
+
     /// ξ of the samples from `offset` on.
     #[inline(always)]
     pub fn load<const N: usize>(words: &Words<N>, offset: usize) -> Self {

@@ -39,6 +39,12 @@ impl Frame {
         self.to_world.transpose() * (position - self.x)
     }
 
+    /// A world vector turned to local axes.
+    #[inline]
+    pub fn to_local(&self, vector: DVec3) -> DVec3 {
+        self.to_world.transpose() * vector
+    }
+
     /// A local vector turned back to world axes.
     #[inline]
     pub fn to_world(&self, vector: DVec3) -> DVec3 {

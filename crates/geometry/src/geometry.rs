@@ -83,6 +83,12 @@ impl Geometry {
         self.spared[target as usize].binary_search(&triangle).is_err()
     }
 
+    /// The emitting triangles nearby that lie in the plane of a triangle that does not emit.
+    pub(crate) fn emitters_flush_with(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+        let targets = self.flush.get(&triangle).into_iter().flatten();
+        targets.flat_map(|&target| self.targets[target as usize].triangles())
+    }
+
     /// The target that a triangle belongs to.
     pub fn target_of(&self, triangle: u32) -> Option<u32> {
         self.target_of.get(&triangle).copied()

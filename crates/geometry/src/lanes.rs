@@ -309,6 +309,10 @@ impl<S: Simd> Real for Lanes<S> {
         (LaneMask(mask32x16::from_bitmask(proof(), some)), LaneWord::of(answers))
     }
     #[inline(always)]
+    fn load(numbers: &[f32]) -> Self {
+        Self(f32x16::from_slice(proof(), &numbers[..LANES]))
+    }
+    #[inline(always)]
     fn store(self, numbers: &mut [f32]) {
         self.0.store_slice(&mut numbers[..LANES]);
     }

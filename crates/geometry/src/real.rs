@@ -83,6 +83,8 @@ pub trait Real:
         values: [Self; K],
         f: impl FnMut(u32, [f32; K]) -> Option<u32>,
     ) -> (Self::Mask, Self::Word);
+    /// As many numbers as lie side by side, from the beginning of a slice.
+    fn load(numbers: &[f32]) -> Self;
     /// Writes the numbers in order to the beginning of a slice.
     fn store(self, numbers: &mut [f32]);
 
@@ -208,6 +210,10 @@ impl Real for f32 {
     ) -> (bool, u32) {
         let answer = if mask { f(word, values) } else { None };
         (answer.is_some(), answer.unwrap_or_default())
+    }
+    #[inline(always)]
+    fn load(numbers: &[f32]) -> Self {
+        numbers[0]
     }
     #[inline(always)]
     fn store(self, numbers: &mut [f32]) {

@@ -12,6 +12,7 @@ mod pyramid;
 mod shaft;
 mod sight;
 mod vantage;
+mod window;
 
 use glam::DVec3;
 
@@ -26,6 +27,7 @@ use facet::Wide;
 pub use prospect::Prospect;
 pub use sight::{Between, Sight};
 pub use vantage::Vantage;
+pub use window::{Glimpse, Pane, Window};
 
 /// Most targets that a view looks at one by one; beyond, rays find them.
 const MANY_TARGETS: usize = 64;

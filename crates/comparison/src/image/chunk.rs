@@ -1,0 +1,243 @@
+//! Camera samples side by side: where they look, what they meet, what that is worth.
+
+use std::ops::Range;
+
+use twoforms_estimator::density::Density;
+use twoforms_estimator::estimator::Estimator;
+use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::rgb::Rgb;
+use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::xi::Key;
+use twoforms_geometry::lanes::Kernel;
+use twoforms_geometry::real::{Mask, Real, Word};
+use twoforms_geometry::vector::Vector;
+use twoforms_geometry::view::Window;
+use twoforms_geometry::wide::{EIGHT, Wide};
+
+/// Camera samples that go together.
+pub(super) const SIZE: usize = 1024;
+/// The pane of a sample that meets nothing.
+pub(super) const NOTHING: u32 = u32::MAX;
+
+/// Some camera samples of a tile. Arrays have one entry a sample.
+pub(super) struct Chunk {
+    /// Which samples they are.
+    pub(super) pieces: Vec<Piece>,
+    len: usize,
+    streams: [[u32; SIZE]; 2],
+    /// The pixel's corner in the tile, in pixels.
+    corner: [[f32; SIZE]; 2],
+    /// Direction from the eye, in its frame.
+    toward: [[f32; SIZE]; 3],
+    /// 1/t to the surface along it.
+    per_t: [f32; SIZE],
+    /// The pane it meets.
+    pane: [u32; SIZE],
+    /// Mean of the light samples, RGB.
+    pub(super) value: [[f64; SIZE]; 3],
+    /// Rays asked for by light samples.
+    rays: [u32; SIZE],
+}
+
+/// Consecutive camera samples of one pixel.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// Which pixel of the tile.
+    pub(super) pixel: usize,
+    /// Its camera samples.
+    pub(super) samples: Range<u32>,
+    /// Where in the chunk the first is.
+    pub(super) start: usize,
+}
+
+impl Piece {
+    /// Where in the chunk they are.
+    pub(super) fn places(&self) -> Range<usize> {
+        self.start..self.start + self.samples.len()
+    }
+}
+
+impl Chunk {
+    /// No samples.
+    pub(super) fn new() -> Box<Self> {
+        Box::new(Self {
+            pieces: Vec::new(),
+            len: 0,
+            streams: [[0; SIZE]; 2],
+            corner: [[0.0; SIZE]; 2],
+            toward: [[0.0; SIZE]; 3],
+            per_t: [0.0; SIZE],
+            pane: [NOTHING; SIZE],
+            value: [[0.0; SIZE]; 3],
+            rays: [0; SIZE],
+        })
+    }
+
+    /// Removes all samples.
+    pub(super) fn clear(&mut self) {
+        self.pieces.clear();
+        self.value = [[0.0; SIZE]; 3];
+        self.rays = [0; SIZE];
+        self.len = 0;
+    }
+
+    /// Whether so many more samples find room.
+    pub(super) fn has_room(&self, more: usize) -> bool {
+        self.len + more <= SIZE
+    }
+
+    /// Adds camera samples of a pixel with this number in the image and this corner in the tile.
+    pub(super) fn push(&mut self, pixel: usize, samples: Range<u32>, number: u32, [x, y]: [u32; 2]) {
+        let piece = Piece { pixel, samples, start: self.len };
+        for (k, sample) in piece.places().zip(piece.samples.clone()) {
+            (self.streams[0][k], self.streams[1][k]) = (number, sample);
+            (self.corner[0][k], self.corner[1][k]) = (x as f32, y as f32);
+        }
+        self.len += piece.samples.len();
+        self.pieces.push(piece);
+    }
+
+    /// The panes that are met, once each.
+    pub(super) fn panes(&self) -> Vec<u32> {
+        let mut met: Vec<u32> = Vec::new();
+        for &pane in &self.pane[..self.len] {
+            if pane != NOTHING && !met.contains(&pane) {
+                met.push(pane);
+            }
+        }
+        met
+    }
+
+    /// The samples that meet a pane.
+    pub(super) fn that_meet(&self, pane: u32) -> impl Iterator<Item = usize> + use<'_> {
+        (0..self.len).filter(move |&k| self.pane[k] == pane)
+    }
+
+    /// Direction of a sample in the frame of the eye.
+    pub(super) fn toward(&self, k: usize) -> [f32; 3] {
+        [self.toward[0][k], self.toward[1][k], self.toward[2][k]]
+    }
+
+    /// The stream of a sample.
+    pub(super) fn stream(&self, k: usize) -> [u32; 2] {
+        [self.streams[0][k], self.streams[1][k]]
+    }
+
+    /// Adds to the value of a sample, RGB, and to its rays.
+    pub(super) fn add(&mut self, k: usize, value: [f64; 3], rays: u32) {
+        for c in 0..3 {
+            self.value[c][k] += value[c];
+        }
+        self.rays[k] += rays;
+    }
+
+    /// Rays asked for by the light samples of some camera samples.
+    pub(super) fn rays(&self, places: Range<usize>) -> u64 {
+        self.rays[places].iter().map(|&rays| u64::from(rays)).sum()
+    }
+}
+
+/// Where the camera samples look, and what they meet.
+pub(super) struct Look<'c> {
+    pub(super) chunk: &'c mut Chunk,
+    pub(super) window: &'c Window,
+    /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
+    pub(super) axes: [[f32; 3]; 3],
+    pub(super) key: Key,
+    /// Whether samples are spread over the pixel.
+    pub(super) spread: bool,
+}
+
+impl Kernel for Look<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let [first, right, down] = self.axes;
+        let chunk = self.chunk;
+        for k in (0..chunk.len).step_by(R::LANES) {
+            let streams = [R::Word::load(&chunk.streams[0][k..]), R::Word::load(&chunk.streams[1][k..])];
+            let [dx, dy] = if self.spread {
+                Sampler::Independent.across::<R>(self.key, streams, 0).uv()
+            } else {
+                [R::splat(0.5), R::splat(0.5)]
+            };
+            let (x, y) = (R::load(&chunk.corner[0][k..]) + dx, R::load(&chunk.corner[1][k..]) + dy);
+            let toward = Vector::<R>::splat(first) + Vector::splat(right) * x + Vector::splat(down) * y;
+            let (glimpse, some) = self.window.look(toward).parts();
+            toward.x.store(&mut chunk.toward[0][k..]);
+            toward.y.store(&mut chunk.toward[1][k..]);
+            toward.z.store(&mut chunk.toward[2][k..]);
+            glimpse.per_t.store(&mut chunk.per_t[k..]);
+            R::select_word(some, glimpse.pane, R::Word::splat(NOTHING)).store(&mut chunk.pane[k..]);
+        }
+    }
+}
+
+/// The light samples of the camera samples that meet one pane, from where they meet it.
+pub(super) struct Light<'c, 'a, F, D> {
+    pub(super) chunk: &'c mut Chunk,
+    pub(super) estimator: &'c Estimator<'a, F, D>,
+    pub(super) light: LightSamples,
+    pub(super) pane: u32,
+    /// The vectors that give the coordinates of a point of the pane from its direction.
+    pub(super) along: [[f32; 3]; 2],
+}
+
+/// How lights are sampled at each camera sample.
+#[derive(Clone, Copy)]
+pub(super) struct LightSamples {
+    pub(super) sampler: Sampler,
+    pub(super) key: Key,
+    pub(super) n: u32,
+}
+
+/// Numbers side by side, at most.
+const ROOM: usize = 2 * EIGHT;
+
+impl<F: Formulation, D: Density<F::Measure>> Kernel for Light<'_, '_, F, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Self { chunk, estimator, light, pane, along: [u, v] } = self;
+        let share = R::Wide::splat(1.0 / f64::from(light.n));
+        for k in (0..chunk.len).step_by(R::LANES) {
+            let inside = R::below(R::Word::counting(k as u32), R::Word::splat(chunk.len as u32));
+            let wanted = inside & R::same(R::Word::load(&chunk.pane[k..]), R::Word::splat(pane));
+            if !wanted.any() {
+                continue;
+            }
+            let [x, y, z] =
+                [R::load(&chunk.toward[0][k..]), R::load(&chunk.toward[1][k..]), R::load(&chunk.toward[2][k..])];
+            let (toward, t) = (Vector::new(x, y, z), R::one() / R::load(&chunk.per_t[k..]));
+            let start = Vector::new(Vector::splat(u).dot(toward) * t, Vector::splat(v).dot(toward) * t, R::zero());
+            let from = estimator.view().from_points(start).only(wanted);
+            let streams = [R::Word::load(&chunk.streams[0][k..]), R::Word::load(&chunk.streams[1][k..])];
+            let mut sums = [[R::Wide::splat(0.0); 2]; 3];
+            let mut rays = R::Word::load(&chunk.rays[k..]);
+            for index in 0..light.n {
+                let xi = light.sampler.across::<R>(light.key, streams, index);
+                let (Rgb(worth), ray) = estimator.primary(&from, xi);
+                rays = rays.wrapping_add(R::select_word(ray, R::Word::splat(1), R::Word::splat(0)));
+                for c in 0..3 {
+                    let mut numbers = [0.0; ROOM];
+                    worth[c].store(&mut numbers);
+                    for half in 0..2 {
+                        sums[c][half] = sums[c][half] + R::Wide::widen(&numbers[half * EIGHT..]);
+                    }
+                }
+            }
+            rays.store(&mut chunk.rays[k..]);
+            for c in 0..3 {
+                let mut means = [0.0; ROOM];
+                for half in 0..2 {
+                    (sums[c][half] * share).store(&mut means[half * EIGHT..]);
+                }
+                for lane in 0..R::LANES {
+                    chunk.value[c][k + lane] += means[lane];
+                }
+            }
+        }
+    }
+}

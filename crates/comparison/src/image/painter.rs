@@ -1,0 +1,188 @@
+//! Painting an image: tiles by beams, or pixels ray by ray.
+
+use glam::DVec3;
+use twoforms_estimator::density::Density;
+use twoforms_estimator::estimator::{Estimator, NotFinite};
+use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::moments::Moments;
+use twoforms_estimator::query::Query;
+use twoforms_estimator::sampler::{Sampler, Stream};
+use twoforms_estimator::strategy::{Kernel, NotSampled, Prepared};
+use twoforms_estimator::xi::{Draws, Key};
+use twoforms_geometry::frame::Frame;
+use twoforms_geometry::view::{Effort, View};
+use twoforms_scene::Camera;
+
+use super::beam::Beam;
+use super::{Centre, Crop, Pixel, PixelFilter, Rendering};
+use crate::error::BrokenPixel;
+use crate::viewpoint;
+use crate::world::{Seen, World};
+
+/// Light samples at one x from which gathering a view costs less than casting rays.
+const GATHER_FROM: u32 = 16;
+
+/// A rendering with all that does not depend on the pixel.
+pub(super) struct Painter<'a> {
+    pub(super) rendering: &'a Rendering,
+    pub(super) world: &'a World,
+    pub(super) camera: &'a Camera,
+    pub(super) prepared: Prepared,
+    pub(super) camera_key: Key,
+    pub(super) light_key: Key,
+}
+
+/// The value of one camera sample.
+struct Shaded {
+    value: [f64; 3],
+    rays: u64,
+}
+
+/// What a surface adds to a camera sample by itself, and what is asked of the light that it receives; nothing where it
+/// reflects none.
+pub(super) struct Surface<'w> {
+    pub(super) emission: [f64; 3],
+    pub(super) query: Option<Query<'w>>,
+}
+
+impl<'a> Painter<'a> {
+    pub(super) fn new(rendering: &'a Rendering, world: &'a World, camera: &'a Camera) -> Result<Self, NotSampled> {
+        let key = |name: &str| Key::new([rendering.seed].into_iter().chain(Key::words_of(name)));
+        let names = format!("{}\n{}", rendering.strategy.density_name(), rendering.sampler);
+        Ok(Self {
+            rendering,
+            world,
+            camera,
+            prepared: rendering.strategy.prepare(&world.lights)?,
+            camera_key: key("camera"),
+            light_key: key(&names),
+        })
+    }
+
+    /// The pixels of a tile that lie in the crop, row by row: by beams, or where those see too much by beams through its
+    /// quarters, and at last by a ray for each sample. How is decided by the tile alone.
+    pub(super) fn tile(&self, tile: Crop) -> Result<Vec<Pixel>, BrokenPixel> {
+        let inside = tile.within(self.rendering.crop);
+        if let Some(beam) = Beam::new(self, tile) {
+            return beam.pixels(inside);
+        }
+        if tile.width() == 1 {
+            return inside.pixels().map(|[x, y]| self.pixel(x, y)).collect();
+        }
+        self.quarters(tile, inside)
+    }
+
+    fn quarters(&self, tile: Crop, inside: Crop) -> Result<Vec<Pixel>, BrokenPixel> {
+        let mut pixels = vec![Pixel::default(); inside.width() as usize * inside.height() as usize];
+        for quarter in tile.quarters().filter(|quarter| quarter.meets(inside)) {
+            let part = quarter.within(inside);
+            for ([x, y], pixel) in part.pixels().zip(self.tile(quarter)?) {
+                pixels[((y - inside.y0) * inside.width() + x - inside.x0) as usize] = pixel;
+            }
+        }
+        Ok(pixels)
+    }
+
+    fn pixel(&self, x: u32, y: u32) -> Result<Pixel, BrokenPixel> {
+        let Rendering { spp, strategy, .. } = *self.rendering;
+        let mut channels: [Vec<f64>; 3] = Default::default();
+        let mut rays = 0;
+        for sample in 0..spp {
+            let broken = |source| BrokenPixel { strategy, x, y, sample, source };
+            let shaded = self.camera_sample(x, y, [self.index(x, y), sample]).map_err(broken)?;
+            channels.iter_mut().zip(shaded.value).for_each(|(channel, value)| channel.push(value));
+            rays += shaded.rays;
+        }
+        Ok(Pixel::new(channels.each_ref().map(|channel| Moments::of(channel)), rays, self.centre(x, y)))
+    }
+
+    /// The pixel's number in the whole image.
+    pub(super) fn index(&self, x: u32, y: u32) -> u32 {
+        y * self.rendering.width + x
+    }
+
+    fn camera_sample(&self, x: u32, y: u32, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+        let [dx, dy] = match self.rendering.filter {
+            PixelFilter::Box => Stream { sampler: Sampler::Independent, draws: Draws { key: self.camera_key, stream } }
+                .xi(0)
+                .uv()
+                .map(f64::from),
+            PixelFilter::Point => [0.5; 2],
+        };
+        match self.look(f64::from(x) + dx, f64::from(y) + dy) {
+            None => Ok(Shaded { value: [0.0; 3], rays: 1 }),
+            Some(seen) => self.shade(&seen, stream),
+        }
+    }
+
+    /// What a surface shows of itself and asks of the light.
+    pub(super) fn surface(&self, seen: &Seen) -> Surface<'a> {
+        let Rendering { cull, radiance, .. } = *self.rendering;
+        let emission = if radiance { self.world.emission(seen) } else { [0.0; 3] };
+        let material = self.world.scene.material_of(seen.triangle);
+        let culled = cull && !seen.front && !material.double_sided;
+        let black = culled || (radiance && material.albedo == [0.0; 3]);
+        let lights = &self.world.lights;
+        let query = if radiance { Query::radiance(lights, material.albedo) } else { Query::irradiance(lights) };
+        Surface { emission: emission.map(f64::from), query: (!black).then_some(query) }
+    }
+
+    /// L_e of what is seen, plus what it reflects.
+    fn shade(&self, seen: &Seen, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+        let Surface { emission, query } = self.surface(seen);
+        let Some(query) = query else { return Ok(Shaded { value: emission, rays: 1 }) };
+        let (value, rays) = self.receive(seen, &query, stream)?;
+        Ok(Shaded { value: std::array::from_fn(|c| emission[c] + value[c]), rays: rays + 1 })
+    }
+
+    /// The mean of the light samples at one point, and the rays it took.
+    pub(super) fn receive(&self, seen: &Seen, query: &Query, stream: [u32; 2]) -> Result<([f64; 3], u64), NotFinite> {
+        let Rendering { light_samples, sampler, .. } = *self.rendering;
+        let effort = if light_samples >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
+        let view = View::new(&self.world.geometry, Frame::new(seen.position, seen.normal), effort);
+        let draws = Draws { key: self.light_key, stream };
+        self.prepared.run(&view, query, Secondary { sampler, draws, n: light_samples })
+    }
+
+    /// Direction from the camera through a point of the image, in pixels.
+    pub(super) fn toward(&self, x: f64, y: f64) -> DVec3 {
+        let Rendering { width, height, .. } = *self.rendering;
+        viewpoint::ray(self.camera, [x, y], [width, height]).direction
+    }
+
+    fn look(&self, x: f64, y: f64) -> Option<Seen> {
+        let Rendering { width, height, .. } = *self.rendering;
+        self.world.see(&viewpoint::ray(self.camera, [x, y], [width, height]))
+    }
+
+    fn centre(&self, x: u32, y: u32) -> Option<Centre> {
+        Some(self.centre_of(&self.look(f64::from(x) + 0.5, f64::from(y) + 0.5)?))
+    }
+
+    /// What is kept of the surface at a pixel's centre.
+    pub(super) fn centre_of(&self, seen: &Seen) -> Centre {
+        let toward: DVec3 = seen.position - self.camera.position;
+        Centre {
+            position: seen.position.to_array(),
+            normal: seen.normal.to_array(),
+            depth: toward.dot(self.camera.forward),
+            albedo: self.world.scene.albedo(seen.triangle),
+        }
+    }
+}
+
+/// The mean of n light samples, and the rays it took.
+struct Secondary {
+    sampler: Sampler,
+    draws: Draws,
+    n: u32,
+}
+
+impl Kernel for Secondary {
+    type Output = Result<([f64; 3], u64), NotFinite>;
+
+    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+        let estimate = estimator.secondary(self.n, Stream { sampler: self.sampler, draws: self.draws })?;
+        Ok((estimate.value, estimate.rays))
+    }
+}

@@ -3,7 +3,7 @@
 use twoforms_estimator::lights::Lights;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::geometry::Geometry;
-use twoforms_geometry::view::Prospect;
+use twoforms_geometry::view::{Prospect, Standing, prospects};
 
 use crate::error::Error;
 use crate::facing::{Facing, Light};
@@ -16,7 +16,9 @@ use crate::sight::Sight;
 /// # Errors
 /// Where there is no exact answer; see [`Error`].
 pub fn look(geometry: &Geometry, lights: &Lights, frame: &Frame, f_r: [f64; 3]) -> Result<Sight, Error> {
-    sight(lights, f_r, 1.0, |target| Prospect::new(geometry, frame, target))
+    let mut sight = Ok(Sight::dark(&all(lights, 1.0))?);
+    prospects(geometry, frame, |prospect| add(&mut sight, prospect, lights, f_r, 1.0));
+    sight
 }
 
 /// The same with the lights where `motion` has them: radiances stay, areas and powers grow with the scale.
@@ -30,16 +32,23 @@ pub fn look_moved(
     f_r: [f64; 3],
     motion: &Motion,
 ) -> Result<Sight, Error> {
-    sight(lights, f_r, motion.growth(), |target| motion.prospect(geometry, frame, target))
+    let growth = motion.growth();
+    let mut sight = Ok(Sight::dark(&all(lights, growth))?);
+    for target in 0..lights.targets() as u32 {
+        add(&mut sight, motion.prospect(geometry, frame, target), lights, f_r, growth);
+    }
+    sight
 }
 
-/// The sight of all targets, each as `prospect` gives it, with areas grown by a factor.
-fn sight(lights: &Lights, f_r: [f64; 3], growth: f64, prospect: impl Fn(u32) -> Prospect) -> Result<Sight, Error> {
-    let facing = (0..lights.targets() as u32).filter_map(|target| {
-        let Prospect { corners, lit, blockers } = prospect(target);
-        let radiance = lights.radiance(target);
-        let index = target as usize;
-        lit.then(|| Facing {
+/// Adds a target to what is seen, its area grown by a factor; the first error stays.
+fn add(sight: &mut Result<Sight, Error>, prospect: Prospect, lights: &Lights, f_r: [f64; 3], growth: f64) {
+    let Ok(seen) = sight else { return };
+    let Prospect { target, standing, corners, blockers } = prospect;
+    let (index, radiance) = (target as usize, lights.radiance(target));
+    let added = match standing {
+        Standing::Dark | Standing::OnBack => Ok(()),
+        Standing::On => Err(Error::OnLight { target }),
+        Standing::Lit => seen.add(&Facing {
             target,
             light: lights.light_of_target()[index] as u32,
             corners,
@@ -47,9 +56,11 @@ fn sight(lights: &Lights, f_r: [f64; 3], growth: f64, prospect: impl Fn(u32) -> 
             area: lights.areas()[index] * growth,
             radiance: std::array::from_fn(|c| f64::from(radiance[c]) * f_r[c]),
             blockers,
-        })
-    });
-    Sight::new(&facing.collect::<Vec<_>>(), &all(lights, growth))
+        }),
+    };
+    if let Err(error) = added {
+        *sight = Err(error);
+    }
 }
 
 /// What selections need of every light.

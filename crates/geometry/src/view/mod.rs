@@ -7,9 +7,12 @@
 
 mod cone;
 mod facet;
+mod group;
+mod polygon;
 mod prospect;
 mod pyramid;
 mod sight;
+mod window;
 
 use glam::DVec3;
 
@@ -22,9 +25,9 @@ use crate::segment::SurfacePoint;
 use crate::vector::{Direction, Vector};
 
 pub use cone::Cone;
-pub use facet::Facet;
 use facet::Wide;
-pub use prospect::Prospect;
+pub use facet::{Facet, Standing};
+pub use prospect::{Prospect, prospects};
 pub use sight::{Between, Sight};
 
 /// Most targets that a view looks at one by one; beyond, rays find them.

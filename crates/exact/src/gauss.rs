@@ -6,6 +6,9 @@ use std::sync::LazyLock;
 /// Nodes and weights on [0, 1].
 pub type Rule = Vec<(f64, f64)>;
 
+/// 3 nodes, for error bounds.
+pub static FEW: LazyLock<Rule> = LazyLock::new(|| legendre(3));
+
 /// 7 nodes, to judge the larger rule by.
 pub static LOW: LazyLock<Rule> = LazyLock::new(|| legendre(7));
 

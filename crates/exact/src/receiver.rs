@@ -3,7 +3,7 @@
 use twoforms_estimator::lights::Lights;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::geometry::Geometry;
-use twoforms_geometry::view::{Prospect, Standing, prospects};
+use twoforms_geometry::view::{Need, Prospect, Standing, prospects};
 
 use crate::error::Error;
 use crate::facing::{Facing, Light};
@@ -16,9 +16,9 @@ use crate::sight::Sight;
 /// # Errors
 /// Where there is no exact answer; see [`Error`].
 pub fn look(geometry: &Geometry, lights: &Lights, frame: &Frame, f_r: [f64; 3]) -> Result<Sight, Error> {
-    let mut sight = Ok(Sight::dark(&all(lights, 1.0))?);
-    prospects(geometry, frame, |prospect| add(&mut sight, prospect, lights, f_r, 1.0));
-    sight
+    let mut seen = Gathering { sight: Sight::dark(&all(lights, 1.0))?, error: None, lights, f_r, growth: 1.0 };
+    prospects(geometry, frame, |prospect| seen.add(prospect));
+    seen.finish()
 }
 
 /// The same with the lights where `motion` has them: radiances stay, areas and powers grow with the scale.
@@ -33,33 +33,57 @@ pub fn look_moved(
     motion: &Motion,
 ) -> Result<Sight, Error> {
     let growth = motion.growth();
-    let mut sight = Ok(Sight::dark(&all(lights, growth))?);
+    let mut seen = Gathering { sight: Sight::dark(&all(lights, growth))?, error: None, lights, f_r, growth };
     for target in 0..lights.targets() as u32 {
-        add(&mut sight, motion.prospect(geometry, frame, target), lights, f_r, growth);
+        seen.add(motion.prospect(geometry, frame, target));
     }
-    sight
+    seen.finish()
 }
 
-/// Adds a target to what is seen, its area grown by a factor; the first error stays.
-fn add(sight: &mut Result<Sight, Error>, prospect: Prospect, lights: &Lights, f_r: [f64; 3], growth: f64) {
-    let Ok(seen) = sight else { return };
-    let Prospect { target, standing, corners, blockers } = prospect;
-    let (index, radiance) = (target as usize, lights.radiance(target));
-    let added = match standing {
-        Standing::Dark | Standing::OnBack => Ok(()),
-        Standing::On => Err(Error::OnLight { target }),
-        Standing::Lit => seen.add(&Facing {
+/// A sight that targets are added to, and the first error.
+struct Gathering<'a> {
+    sight: Sight,
+    error: Option<Error>,
+    lights: &'a Lights,
+    f_r: [f64; 3],
+    /// By how much areas have grown.
+    growth: f64,
+}
+
+impl Gathering<'_> {
+    fn add(&mut self, prospect: Prospect) -> Need {
+        let added = match prospect.standing {
+            _ if self.error.is_some() => Ok(true),
+            Standing::Dark | Standing::OnBack => Ok(true),
+            Standing::On => Err(Error::OnLight { target: prospect.target }),
+            Standing::Lit if prospect.complete => self.sight.add(&self.facing(prospect)).map(|()| true),
+            Standing::Lit => self.sight.add_hidden(&self.facing(prospect)),
+        };
+        match added {
+            Ok(true) => Need::Nothing,
+            Ok(false) => Need::Complete,
+            Err(error) => {
+                self.error = Some(error);
+                Need::Nothing
+            }
+        }
+    }
+
+    fn facing(&self, Prospect { target, corners, blockers, .. }: Prospect) -> Facing {
+        let (index, radiance) = (target as usize, self.lights.radiance(target));
+        Facing {
             target,
-            light: lights.light_of_target()[index] as u32,
+            light: self.lights.light_of_target()[index] as u32,
             corners,
             faces: true,
-            area: lights.areas()[index] * growth,
-            radiance: std::array::from_fn(|c| f64::from(radiance[c]) * f_r[c]),
+            area: self.lights.areas()[index] * self.growth,
+            radiance: std::array::from_fn(|c| f64::from(radiance[c]) * self.f_r[c]),
             blockers,
-        }),
-    };
-    if let Err(error) = added {
-        *sight = Err(error);
+        }
+    }
+
+    fn finish(self) -> Result<Sight, Error> {
+        self.error.map_or(Ok(self.sight), Err)
     }
 }
 

@@ -53,6 +53,20 @@ impl Sight {
         Ok(())
     }
 
+    /// Adds a target if its blockers hide all of it, and says whether they do: then more of them would change nothing.
+    ///
+    /// # Errors
+    /// As [`Sight::new`].
+    pub fn add_hidden(&mut self, target: &Facing) -> Result<bool, Error> {
+        target.check(self.lights.len())?;
+        let mut seen = Seen::facets(target)?;
+        let hidden = seen.iter().all(|seen| seen.pieces.is_empty());
+        if hidden {
+            self.seen.append(&mut seen);
+        }
+        Ok(hidden)
+    }
+
     /// Area of all lights in m², each triangle once.
     pub fn total_area(&self) -> f64 {
         self.lights.iter().map(|light| light.area).sum()

@@ -1,11 +1,12 @@
 //! Neighbouring targets that share one query of the hierarchy.
 
+use std::cmp::Reverse;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
 
 use super::facet::{Facet, Standing, Wide};
-use super::prospect::Prospect;
+use super::prospect::{Need, Prospect};
 use super::pyramid::Pyramid;
 use super::window::Window;
 use crate::blocking;
@@ -14,7 +15,10 @@ use crate::geometry::Geometry;
 use crate::tracer::Region;
 
 /// Most targets of a group.
-const MOST: usize = 64;
+const MOST: usize = 128;
+/// Blockers that a target is shown with first: most targets that are hidden among many triangles are hidden by a few of the
+/// largest.
+const LARGEST: usize = 6;
 /// A group's window is at most this many times as large as those of its targets together.
 const SPREAD: f64 = 8.0;
 
@@ -36,11 +40,10 @@ struct Member {
     lit: Option<(Pyramid, Window)>,
 }
 
-/// A triangle that may stand before some of them.
-struct Candidate {
-    triangle: u32,
-    corners: [DVec3; 3],
-    window: Window,
+/// Triangles that may stand before some of them, and the windows in which they stand.
+struct Candidates {
+    windows: Vec<Window>,
+    triangles: Vec<(u32, [DVec3; 3])>,
 }
 
 impl<'a> Group<'a> {
@@ -68,42 +71,42 @@ impl<'a> Group<'a> {
         near.then_some(Self { geometry, frame, members, axes, window })
     }
 
-    /// The prospects of the group's targets, by one query of the hierarchy.
-    pub(crate) fn prospects(&self, visit: &mut impl FnMut(Prospect)) {
+    /// Visits the group's targets, by one query of the hierarchy.
+    pub(crate) fn prospects(&self, visit: &mut impl FnMut(Prospect) -> Need) {
         let candidates = self.candidates();
-        for member in &self.members {
+        for Member { target, facet, lit } in &self.members {
             let mut blockers = Vec::new();
-            if let Some((pyramid, window)) = &member.lit {
-                let meeting = candidates.iter().filter(|c| {
-                    c.window.meets(window)
-                        && self.geometry.may_block(c.triangle, member.target)
-                        && pyramid.meets(&c.corners)
-                });
-                blockers.extend(meeting.map(|c| c.corners));
+            let mut rest = lit.iter().flat_map(|lit| candidates.before(lit, *target, self.geometry));
+            blockers.extend(rest.by_ref().take(LARGEST));
+            let complete = blockers.len() < LARGEST;
+            if visit(Prospect::of(*target, facet, blockers.clone(), complete)) == Need::Complete && !complete {
+                blockers.extend(rest);
+                visit(Prospect::of(*target, facet, blockers, true));
             }
-            visit(Prospect::of(member.target, &member.facet, blockers));
         }
     }
 
-    /// What stands in the window.
-    fn candidates(&self) -> Vec<Candidate> {
-        let Self { geometry, frame, .. } = self;
-        let mut candidates = Vec::new();
-        if self.window.size() <= 0.0 {
-            return candidates;
-        }
-        geometry.within(&self.region(), |index| {
-            let triangle = geometry.mesh().triangle(index);
-            if !blocking::plane_holds(&triangle, frame.x()) {
+    /// What stands in the window, the largest first.
+    fn candidates(&self) -> Candidates {
+        let Self { geometry, frame, axes, window, .. } = self;
+        let mut found = Vec::new();
+        if window.size() > 0.0 {
+            geometry.within(&self.region(), |index| {
+                let triangle = geometry.mesh().triangle(index);
                 let corners = triangle.vertices().map(|v| frame.localize(v));
-                let window = Window::before(&self.axes, &corners);
-                if window.meets(&self.window) {
-                    candidates.push(Candidate { triangle: index, corners, window });
+                let own = Window::before(axes, &corners);
+                if own.meets(window) && !blocking::plane_holds(&triangle, frame.x()) {
+                    found.push((own, (index, corners)));
                 }
-            }
-            ControlFlow::Continue(())
-        });
-        candidates
+                ControlFlow::Continue(())
+            });
+        }
+        let size = |own: &Window| own.shared(window).size();
+        // Numbers from zero up are in the order of their bits.
+        let mut order: Vec<(u64, u32)> = found.iter().zip(0..).map(|((own, _), k)| (size(own).to_bits(), k)).collect();
+        order.sort_unstable_by_key(|&key| Reverse(key));
+        let (windows, triangles) = order.into_iter().map(|(_, k)| found[k as usize]).unzip();
+        Candidates { windows, triangles }
     }
 
     /// Above x's horizon, within the window and up to its far end, in world space.
@@ -112,6 +115,22 @@ impl<'a> Group<'a> {
         let sides = self.window.sides().map(|outward| (world(outward), 0.0));
         let ends = [(-self.frame.n_x(), 0.0), (world(DVec3::Z), self.window.far())];
         Region { origin: self.frame.x(), half_spaces: sides.into_iter().chain(ends).collect() }
+    }
+}
+
+impl Candidates {
+    /// The triangles that stand before a lit target.
+    fn before(
+        &self,
+        (pyramid, window): &(Pyramid, Window),
+        target: u32,
+        geometry: &Geometry,
+    ) -> impl Iterator<Item = [DVec3; 3]> {
+        let near = self.windows.iter().zip(&self.triangles).filter(|(own, _)| own.meets(window));
+        let stands = move |(triangle, corners): &(u32, [DVec3; 3])| {
+            (geometry.may_block(*triangle, target) && pyramid.meets(corners)).then_some(*corners)
+        };
+        near.filter_map(move |(_, candidate)| stands(candidate))
     }
 }
 

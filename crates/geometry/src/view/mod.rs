@@ -27,7 +27,7 @@ use crate::vector::{Direction, Vector};
 pub use cone::Cone;
 use facet::Wide;
 pub use facet::{Facet, Standing};
-pub use prospect::{Prospect, prospects};
+pub use prospect::{Need, Prospect, prospects};
 pub use sight::{Between, Sight};
 
 /// Most targets that a view looks at one by one; beyond, rays find them.

@@ -24,6 +24,17 @@ pub struct Prospect {
     pub corners: Vec<DVec3>,
     /// The triangles that can stand between; none where nothing is lit.
     pub blockers: Vec<[DVec3; 3]>,
+    /// Whether these are all of them, or only some of the largest.
+    pub complete: bool,
+}
+
+/// What a visitor of prospects needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// What it was given.
+    Nothing,
+    /// The same prospect, complete.
+    Complete,
 }
 
 impl Prospect {
@@ -39,7 +50,7 @@ impl Prospect {
                 ControlFlow::Continue(())
             });
         }
-        Self::of(target, &facet, blockers)
+        Self::of(target, &facet, blockers, true)
     }
 
     /// The prospect of a target that stands elsewhere than the scene has it, where `corners` say, in the frame of x, and
@@ -60,18 +71,20 @@ impl Prospect {
             blockers = within(&pyramid.region(frame));
             blockers.retain(|corners| pyramid.meets(corners));
         }
-        Self::of(target, &facet, blockers)
+        Self::of(target, &facet, blockers, true)
     }
 
-    pub(crate) fn of(target: u32, facet: &Wide, blockers: Vec<[DVec3; 3]>) -> Self {
-        Self { target, standing: facet.standing(), corners: facet.corners().to_vec(), blockers }
+    pub(crate) fn of(target: u32, facet: &Wide, blockers: Vec<[DVec3; 3]>, complete: bool) -> Self {
+        Self { target, standing: facet.standing(), corners: facet.corners().to_vec(), blockers, complete }
     }
 }
 
 /// Visits the prospect of every target from which light can come, and of every one that x lies on with some of it above the
-/// horizon, once each, in an order that depends on targets and frame alone. The same as [`Prospect::new`] of each target, but
-/// neighbours share one query of the hierarchy, and whole clusters that give no light are passed over.
-pub fn prospects(geometry: &Geometry, frame: &Frame, mut visit: impl FnMut(Prospect)) {
+/// horizon, in an order that depends on targets and frame alone. The same as [`Prospect::new`] of each target, but
+/// neighbours share one query of the hierarchy, whole clusters that give no light are passed over, and a prospect may come
+/// with its largest blockers alone: where these do not settle the matter, the visitor answers [`Need::Complete`] and is given
+/// it once more.
+pub fn prospects(geometry: &Geometry, frame: &Frame, mut visit: impl FnMut(Prospect) -> Need) {
     geometry.clusters().offer(frame, |targets| {
         if let &[target] = targets {
             let prospect = Prospect::new(geometry, frame, target);

@@ -13,9 +13,9 @@ pub(crate) struct Window {
     w: [f64; 2],
 }
 
-/// Least w, over the distance, of a point whose u and v are taken for known.
+/// Least w, over the distance beside the axis, of a point whose u and v are taken for known.
 const LEAST: f64 = 1e-6;
-/// Least w, over the distance, of a point of a window that is no wider than it is long.
+/// Least w, over the distance beside the axis, of a point of a window that is not too wide.
 const NARROW: f64 = 0.3;
 /// What rounding may add to u and v, relative to 1 + |u|.
 const SLACK: f64 = 1e-9;
@@ -40,10 +40,11 @@ impl Window {
         let mut window = Self::NONE;
         for &point in points {
             let p = axes.localize(point);
-            if p.z <= least * p.length() {
+            if p.z <= least * (p.x.abs() + p.y.abs()) {
                 return None;
             }
-            window.hold(p.x / p.z, p.y / p.z, p.z);
+            let per_w = 1.0 / p.z;
+            window.hold(p.x * per_w, p.y * per_w, p.z);
         }
         Some(window)
     }
@@ -58,6 +59,12 @@ impl Window {
     /// The least window that holds both.
     pub(crate) fn union(&self, other: &Self) -> Self {
         let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self { u: both(self.u, other.u), v: both(self.v, other.v), w: both(self.w, other.w) }
+    }
+
+    /// The rectangle that both hold.
+    pub(crate) fn shared(&self, other: &Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
         Self { u: both(self.u, other.u), v: both(self.v, other.v), w: both(self.w, other.w) }
     }
 

@@ -10,7 +10,9 @@ use crate::facing::{Facing, Light};
 use crate::moved::Motion;
 use crate::sight::Sight;
 
-/// What the receiver at the origin of `frame` sees of the lights. `f_r` (RGB) scales what arrives: 1 for irradiance, ρ/π for
+/// What the receiver at the origin of `frame` sees of the lights. One that lies on a light stands on the side that it faces: it
+/// gets nothing from that light where it looks straight out of it, and has no answer where some of the light rises above its
+/// horizon. `f_r` (RGB) scales what arrives: 1 for irradiance, ρ/π for
 /// the radiance that a Lambertian surface reflects.
 ///
 /// # Errors
@@ -35,7 +37,11 @@ pub fn look_moved(
     let growth = motion.growth();
     let mut seen = Gathering { sight: Sight::dark(&all(lights, growth))?, error: None, lights, f_r, growth };
     for target in 0..lights.targets() as u32 {
-        seen.add(motion.prospect(geometry, frame, target));
+        let mut prospect = motion.prospect(geometry, frame, target);
+        if prospect.standing == Standing::OnBack {
+            prospect.standing = Standing::On; // the light was moved there, and may come from either side
+        }
+        seen.add(prospect);
     }
     seen.finish()
 }

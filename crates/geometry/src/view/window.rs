@@ -76,11 +76,8 @@ impl Window {
     /// Whether the rectangles meet, and something of this lies before the other's far end.
     #[inline]
     pub(crate) fn meets(&self, other: &Self) -> bool {
-        (self.u[0] <= other.u[1])
-            & (other.u[0] <= self.u[1])
-            & (self.v[0] <= other.v[1])
-            & (other.v[0] <= self.v[1])
-            & (self.w[0] <= other.w[1])
+        let meet = |a: [f64; 2], b: [f64; 2]| a[0] <= b[1] && b[0] <= a[1];
+        meet(self.u, other.u) && meet(self.v, other.v) && self.w[0] <= other.w[1]
     }
 
     /// Outward normals of the four sides, in its own axes.

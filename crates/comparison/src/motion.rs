@@ -37,6 +37,14 @@ impl<'w> Stage<'w> {
         Self { world, parameter, lamps, on_lights: OnLights::new(world) }
     }
 
+    /// What a receiver sees with nothing moved.
+    ///
+    /// # Errors
+    /// Where there is no exact answer.
+    pub(crate) fn at_rest(&self, place: &Place) -> Result<Sight, Error> {
+        self.from(place, DVec3::ZERO)
+    }
+
     /// What a receiver sees with the parameter at `at`. What moves moves in binary64, unrounded.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
-use twoforms_comparison::on_light::{OnLights, Origin};
+use twoforms_comparison::on_light::{OnLight, OnLights, Origin};
 use twoforms_comparison::place::{Place, Quantity};
 use twoforms_comparison::viewpoint;
 use twoforms_comparison::world::{Seen, World};
@@ -15,11 +15,20 @@ use crate::{points, run};
 /// Cells on a side of the grid that is taken where a scene has no receivers of its own.
 const DEFAULT_GRID: u32 = 8;
 
+/// Whether places are where the light is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stay {
+    /// They are: those on a light are refused, or left out of a grid.
+    Put,
+    /// A sweep begins there and moves them or the lights.
+    Moving,
+}
+
 /// The places that the command line asks for, never none.
-pub fn places(world: &World, places: &PlacesArgs, run: &RunArgs) -> Result<Vec<Place>> {
+pub fn places(world: &World, places: &PlacesArgs, run: &RunArgs, stay: Stay) -> Result<Vec<Place>> {
     let PlacesArgs { receivers: args, camera, quantity } = places;
     let note = |line: &str| run::note(run, line);
-    let lights = OnLights::new(world);
+    let lights = (stay == Stay::Put).then(|| OnLights::new(world));
     let finder = Finder { world, lights, args, camera, quantity: *quantity, note: &note };
     if camera.camera.is_some() {
         self::camera(world, camera)?; // a name that no camera has is told even where nothing looks through it
@@ -61,7 +70,8 @@ const CAMERAS: &str = "--camera auto, or --view EX,EY,EZ,TX,TY,TZ,FOV";
 
 struct Finder<'a> {
     world: &'a World,
-    lights: OnLights<'a>,
+    /// To refuse what lies on a light.
+    lights: Option<OnLights<'a>>,
     args: &'a ReceiverArgs,
     camera: &'a CameraArgs,
     quantity: QuantityArg,
@@ -87,10 +97,15 @@ impl Finder<'_> {
         self.off_lights(Place { name, position, normal, quantity, known: None }, Origin::Given)
     }
 
+    fn check(&self, place: &Place, origin: Origin) -> Result<(), OnLight> {
+        self.lights.as_ref().map_or(Ok(()), |lights| lights.check(&place.frame(), origin))
+    }
+
     /// The place, unless it lies on a light.
     fn off_lights(&self, place: Place, origin: Origin) -> Result<Place> {
-        let checked = self.lights.check(&place.frame(), origin);
-        checked.with_context(|| format!("the receiver \"{}\" has no answer", place.name)).map(|()| place)
+        self.check(&place, origin)
+            .with_context(|| format!("the receiver \"{}\" has no answer", place.name))
+            .map(|()| place)
     }
 
     fn named(&self) -> Result<Vec<Place>> {
@@ -151,7 +166,7 @@ impl Finder<'_> {
             (self.note)(&format!("note: {missed} of {all} grid points see nothing and are left out"));
         }
         let (found, mut places) = (places.len(), places);
-        places.retain(|place| self.lights.check(&place.frame(), Origin::Seen).is_ok());
+        places.retain(|place| self.check(place, Origin::Seen).is_ok());
         match found - places.len() {
             0 => {}
             _ if places.is_empty() => bail!("all grid points lie on the edges of lights: choose another --grid"),

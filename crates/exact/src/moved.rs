@@ -30,6 +30,8 @@ pub struct Body {
 pub struct Motion {
     scale: f64,
     bodies: Vec<Body>,
+    /// The offsets there are, each once; that of what stays first.
+    offsets: Vec<Option<DVec3>>,
 }
 
 /// y becomes scale × y + offset.
@@ -43,7 +45,10 @@ impl Motion {
     /// The motion of `bodies`, which must hold every target of the scene; `scale` > 0.
     pub fn new(scale: f64, mut bodies: Vec<Body>) -> Self {
         bodies.sort_by_key(|body| body.triangles.start);
-        Self { scale, bodies }
+        let mut offsets: Vec<Option<DVec3>> = once(None).chain(bodies.iter().map(|body| Some(body.offset))).collect();
+        offsets.sort_by_key(|offset| offset.map(|by| by.to_array().map(f64::to_bits)));
+        offsets.dedup();
+        Self { scale, bodies, offsets }
     }
 
     /// By how much areas, and so powers, grow.
@@ -69,11 +74,6 @@ impl Motion {
             Some(offset) => Similarity { scale: self.scale, offset },
             None => Similarity { scale: 1.0, offset: DVec3::ZERO },
         }
-    }
-
-    /// The offsets there are, that of what stays first; bodies side by side that move alike count once.
-    fn offsets(&self) -> impl Iterator<Item = Option<DVec3>> {
-        once(None).chain(self.bodies.chunk_by(|a, b| a.offset == b.offset).map(|alike| Some(alike[0].offset)))
     }
 
     /// A triangle after the motion, rounded to binary32 as a scene would hold it.
@@ -140,7 +140,7 @@ impl Moved<'_> {
     /// each offset, where the triangles are at rest and the pyramid is moved back.
     fn blockers(&self, pyramid: &Region) -> Vec<[DVec3; 3]> {
         let mut blockers = Vec::new();
-        for offset in self.motion.offsets() {
+        for &offset in &self.motion.offsets {
             let by = self.motion.similarity(offset);
             self.geometry.within(&by.before(pyramid), |triangle| {
                 if self.motion.offset(triangle) == offset && self.may_block(triangle, offset) {

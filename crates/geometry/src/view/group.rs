@@ -20,7 +20,7 @@ const MOST: usize = 128;
 /// largest.
 const LARGEST: usize = 6;
 /// A group's window is at most this many times as large as those of its targets together.
-const SPREAD: f64 = 8.0;
+const SPREAD: f64 = 1.5;
 
 /// Some neighbouring targets as x meets them, and the window through which x sees them all.
 pub(crate) struct Group<'a> {

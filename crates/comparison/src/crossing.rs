@@ -46,6 +46,16 @@ pub(crate) struct Root {
     pub error: f64,
 }
 
+impl Sample {
+    fn known(self) -> Option<Known> {
+        self.difference.map(|g| Known { u: self.u, g })
+    }
+
+    fn has_sign(self) -> bool {
+        self.difference.is_some_and(|g| g.sign() != 0.0)
+    }
+}
+
 /// A sample that is there.
 #[derive(Clone, Copy)]
 struct Known {
@@ -57,13 +67,11 @@ struct Known {
 /// a sample without a value, nor where the two are equal at several samples in a row: over a whole interval.
 pub(crate) fn roots(samples: &[Sample], g: impl Fn(f64) -> Option<Difference>) -> Vec<Root> {
     let search = Search { g };
-    let known = |sample: &Sample| (sample.u, sample.difference.map(|g| Known { u: sample.u, g }));
-    let mut known: Vec<(f64, Option<Known>)> = samples.iter().map(known).collect();
-    let edges: Vec<Known> = known.windows(2).flat_map(|pair| search.edge(pair[0], pair[1])).collect();
-    known.extend(edges.into_iter().map(|edge| (edge.u, Some(edge))));
-    known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let runs = known.split(|sample| sample.1.is_none());
-    runs.flat_map(|run| search.run(run.iter().filter_map(|sample| sample.1).collect())).collect()
+    let edges = samples.windows(2).flat_map(|pair| search.edge(pair[0], pair[1]));
+    let mut all: Vec<Sample> = samples.iter().copied().chain(edges).collect();
+    all.sort_by(|a, b| a.u.total_cmp(&b.u));
+    let runs = all.split(|sample| sample.difference.is_none());
+    runs.flat_map(|run| search.run(run.iter().filter_map(|sample| sample.known()).collect())).collect()
 }
 
 /// A jump across zero is no crossing: there g does not become this small.
@@ -82,29 +90,30 @@ struct Search<G> {
 }
 
 impl<G: Fn(f64) -> Option<Difference>> Search<G> {
+    fn sample(&self, u: f64) -> Sample {
+        Sample { u, difference: (self.g)(u) }
+    }
+
     fn at(&self, u: f64) -> Option<Known> {
-        (self.g)(u).map(|g| Known { u, g })
+        self.sample(u).known()
     }
 
     /// Where one of two samples has a sign and the other has none or no value: samples with a sign that approach the
     /// edge between, by halving.
-    fn edge(&self, one: (f64, Option<Known>), other: (f64, Option<Known>)) -> Vec<Known> {
-        let has_sign = |known: &Known| known.g.sign() != 0.0;
-        let (mut inside, mut outside) = match [one, other].map(|sample| sample.1.is_some_and(|known| has_sign(&known)))
-        {
-            [true, false] => (one.0, other.0),
-            [false, true] => (other.0, one.0),
+    fn edge(&self, one: Sample, other: Sample) -> Vec<Sample> {
+        let (mut inside, mut outside) = match [one, other].map(Sample::has_sign) {
+            [true, false] => (one.u, other.u),
+            [false, true] => (other.u, one.u),
             _ => return Vec::new(),
         };
         let (mut found, narrow) = (Vec::new(), NARROW * (outside - inside).abs());
         while (outside - inside).abs() > narrow {
-            let middle = 0.5 * (inside + outside);
-            match self.at(middle).filter(has_sign) {
-                Some(known) => {
-                    found.push(known);
-                    inside = middle;
-                }
-                None => outside = middle,
+            let middle = self.sample(0.5 * (inside + outside));
+            if middle.has_sign() {
+                found.push(middle);
+                inside = middle.u;
+            } else {
+                outside = middle.u;
             }
         }
         found
@@ -113,9 +122,9 @@ impl<G: Fn(f64) -> Option<Difference>> Search<G> {
     /// The crossings within one run of samples.
     fn run(&self, mut run: Vec<Known>) -> Vec<Root> {
         if let (&[first, second, ..], &[.., before, last]) = (&run[..], &run[..]) {
-            run.extend([self.beside(first, second), self.beside(last, before)].into_iter().flatten());
+            run.splice(run.len() - 1..run.len() - 1, self.beside(last, before));
+            run.splice(1..1, self.beside(first, second));
         }
-        run.sort_by(|a, b| a.u.total_cmp(&b.u));
         let dips = run.windows(3).filter(|triple| is_dip(triple));
         let beyond: Vec<Known> = dips.filter_map(|triple| self.beyond(triple[0], triple[1], triple[2])).collect();
         run.extend(beyond);

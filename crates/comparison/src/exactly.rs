@@ -102,12 +102,14 @@ pub fn exactly(
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
     let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
-    ExactResult {
-        name: place.name.clone(),
-        position: place.position.to_array(),
-        normal: place.normal.to_array(),
-        light: ExactLight::of(place, sight, strategies),
-        sweep: None,
+    ExactResult::new(place, ExactLight::of(place, sight, strategies), None)
+}
+
+impl ExactResult {
+    /// What is known at a place.
+    pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
+        let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());
+        Self { name, position, normal, light, sweep }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod experiment;
 pub mod image;
 mod measurement;
 mod motion;
+pub mod on_light;
 pub mod place;
 mod plan;
 pub mod result;

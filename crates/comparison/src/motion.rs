@@ -8,6 +8,7 @@ use twoforms_exact::{Error, Sight, receiver};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::mesh::Mesh;
 
+use crate::on_light::{OnLights, Origin};
 use crate::place::Place;
 use crate::sweep::Parameter;
 use crate::world::World;
@@ -17,6 +18,7 @@ pub(crate) struct Stage<'w> {
     world: &'w World,
     parameter: Parameter,
     lamps: Vec<Lamp>,
+    on_lights: OnLights<'w>,
 }
 
 /// A surface that emits.
@@ -31,7 +33,16 @@ impl<'w> Stage<'w> {
         let (scene, mesh) = (&world.scene, world.geometry.mesh());
         let emitting = scene.surfaces.iter().filter(|surface| scene.materials[surface.material].emits());
         let lamp = |triangles: &Range<u32>| Lamp { triangles: triangles.clone(), centroid: centroid(mesh, triangles) };
-        Self { world, parameter, lamps: emitting.map(|surface| lamp(&surface.triangles)).collect() }
+        let lamps = emitting.map(|surface| lamp(&surface.triangles)).collect();
+        Self { world, parameter, lamps, on_lights: OnLights::new(world) }
+    }
+
+    /// What a receiver sees with nothing moved.
+    ///
+    /// # Errors
+    /// Where there is no exact answer.
+    pub(crate) fn at_rest(&self, place: &Place) -> Result<Sight, Error> {
+        self.from(place, DVec3::ZERO)
     }
 
     /// What a receiver sees with the parameter at `at`. What moves moves in binary64, unrounded.
@@ -55,6 +66,8 @@ impl<'w> Stage<'w> {
     /// With the receiver moved.
     fn from(&self, place: &Place, offset: DVec3) -> Result<Sight, Error> {
         let frame = Frame::new(place.position + offset, place.normal);
+        let checked = self.on_lights.check(&frame, Origin::Given);
+        checked.map_err(|on_light| Error::OnLight { target: on_light.target })?;
         receiver::look(&self.world.geometry, &self.world.lights, &frame, place.f_r())
     }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use twoforms_estimator::strategy::Strategy;
 
 use crate::crossing::{Difference, Root, Sample, roots};
-use crate::exactly::{self, ExactLight, ExactResult, ExactVariance};
+use crate::exactly::{ExactLight, ExactResult, ExactVariance};
 use crate::motion::Stage;
 use crate::place::Place;
 use crate::sweep::{Parameter, Spacing, Sweep};
@@ -64,7 +64,8 @@ pub fn swept(
     let stage = Stage::new(world, sweep.parameter());
     let one = |place: &Place| {
         let along = Along { stage: &stage, place, strategies, sweep };
-        ExactResult { sweep: Some(along.swept(progress)), ..exactly::at(world, place, strategies) }
+        let at_rest = ExactLight::of(place, stage.at_rest(place), strategies);
+        ExactResult::new(place, at_rest, Some(along.swept(progress)))
     };
     places.par_iter().map(one).collect()
 }

@@ -60,10 +60,8 @@ impl World {
     /// position by the blocking rule, and whose triangle lies under it.
     pub fn surface_at(&self, position: DVec3, normal: DVec3) -> Option<Seen> {
         let mesh = self.geometry.mesh();
-        let half = DVec3::splat(blocking::TOLERANCE * position.abs().max_element().max(f64::MIN_POSITIVE));
-        let sides =
-            [DVec3::X, DVec3::Y, DVec3::Z].iter().flat_map(|&axis| [(axis, axis.dot(half)), (-axis, axis.dot(half))]);
-        let region = Region { origin: position, half_spaces: sides.collect() };
+        let half = blocking::TOLERANCE * position.abs().max_element().max(f64::MIN_POSITIVE);
+        let region = cube(position, half);
         let above = Ray::new(position + normal, -normal);
         let mut found = None;
         self.geometry.within(&region, |index| {
@@ -85,4 +83,10 @@ impl World {
         let lit = self.geometry.target_of(seen.triangle).is_some() && (seen.front || material.double_sided);
         if lit { material.emission } else { [0.0; 3] }
     }
+}
+
+/// The cube around a point, `half` its edge's half in metres.
+pub(crate) fn cube(centre: DVec3, half: f64) -> Region {
+    let sides = DVec3::AXES.into_iter().flat_map(|axis| [(axis, half), (-axis, half)]);
+    Region { origin: centre, half_spaces: sides.collect() }
 }

@@ -12,11 +12,9 @@ use twoforms_geometry::blocking;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::geometry::Geometry;
 use twoforms_geometry::mesh::{Mesh, Triangle};
-use twoforms_geometry::target::Sides;
+use twoforms_geometry::target::Target;
 use twoforms_geometry::tracer::Region;
-use twoforms_geometry::view::Prospect;
-
-use crate::cone::sides;
+use twoforms_geometry::view::{Prospect, Standing};
 
 /// Triangles that move as one.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +30,8 @@ pub struct Body {
 pub struct Motion {
     scale: f64,
     bodies: Vec<Body>,
+    /// The offsets there are, each once; that of what stays first.
+    offsets: Vec<Option<DVec3>>,
 }
 
 /// y becomes scale × y + offset.
@@ -45,7 +45,10 @@ impl Motion {
     /// The motion of `bodies`, which must hold every target of the scene; `scale` > 0.
     pub fn new(scale: f64, mut bodies: Vec<Body>) -> Self {
         bodies.sort_by_key(|body| body.triangles.start);
-        Self { scale, bodies }
+        let mut offsets: Vec<Option<DVec3>> = once(None).chain(bodies.iter().map(|body| Some(body.offset))).collect();
+        offsets.sort_by_key(|offset| offset.map(|by| by.to_array().map(f64::to_bits)));
+        offsets.dedup();
+        Self { scale, bodies, offsets }
     }
 
     /// By how much areas, and so powers, grow.
@@ -55,11 +58,7 @@ impl Motion {
 
     /// One target as the receiver at the origin of `frame` meets it after the motion, and all that can stand between.
     pub fn prospect(&self, geometry: &Geometry, frame: &Frame, target: u32) -> Prospect {
-        let moved = Moved { motion: self, geometry, frame, target };
-        let corners = moved.corners();
-        let lit = moved.is_lit(&corners);
-        let blockers = if lit { moved.blockers(&corners) } else { Vec::new() };
-        Prospect { corners, lit, blockers }
+        Moved { motion: self, geometry, frame, target }.prospect()
     }
 
     /// The offset of the body that holds a triangle.
@@ -75,11 +74,6 @@ impl Motion {
             Some(offset) => Similarity { scale: self.scale, offset },
             None => Similarity { scale: 1.0, offset: DVec3::ZERO },
         }
-    }
-
-    /// The offsets there are, that of what stays first; bodies side by side that move alike count once.
-    fn offsets(&self) -> impl Iterator<Item = Option<DVec3>> {
-        once(None).chain(self.bodies.chunk_by(|a, b| a.offset == b.offset).map(|alike| Some(alike[0].offset)))
     }
 
     /// A triangle after the motion, rounded to binary32 as a scene would hold it.
@@ -113,48 +107,42 @@ struct Moved<'a> {
 }
 
 impl Moved<'_> {
-    /// The target's own triangles, the first of which stands for its plane.
-    fn own(&self) -> impl Iterator<Item = u32> {
-        self.geometry.targets()[self.target as usize].triangles()
+    fn target(&self) -> &Target {
+        &self.geometry.targets()[self.target as usize]
     }
 
     fn offset(&self) -> Option<DVec3> {
-        self.own().next().and_then(|first| self.motion.offset(first))
+        self.motion.offset(self.target().first())
+    }
+
+    fn rounded(&self, triangle: u32) -> Triangle {
+        self.motion.rounded(self.geometry.mesh(), triangle)
+    }
+
+    /// Corners that are not finite count as lit, for a sight refuses them.
+    fn prospect(&self) -> Prospect {
+        let (target, corners) = (self.target, self.corners());
+        if !corners.iter().all(|corner| corner.is_finite()) {
+            return Prospect { target, standing: Standing::Lit, corners, blockers: Vec::new(), complete: true };
+        }
+        let plane = self.rounded(self.target().first());
+        Prospect::moved(self.frame, target, &corners, self.target().sides, &plane, |pyramid| self.blockers(pyramid))
     }
 
     /// In the frame of x, counter-clockwise seen from the front.
     fn corners(&self) -> Vec<DVec3> {
         let by = self.motion.similarity(self.offset());
-        let corners = self.geometry.targets()[self.target as usize].corners(self.geometry.mesh());
+        let corners = self.target().corners(self.geometry.mesh());
         corners.as_slice().iter().map(|corner| self.frame.localize(by.at(corner.as_dvec3()))).collect()
-    }
-
-    /// Whether light can come from it: x on a side that emits and off its plane, some of it above x's horizon. Corners
-    /// that are not finite count as lit, for a sight refuses them.
-    fn is_lit(&self, corners: &[DVec3]) -> bool {
-        if !corners.iter().all(|corner| corner.is_finite()) {
-            return true;
-        }
-        let faces = match self.geometry.targets()[self.target as usize].sides {
-            Sides::Front => faces_front(corners),
-            Sides::Both => true,
-        };
-        let beside = || self.own().take(1).any(|first| self.plane_holds_x(first));
-        faces && corners.iter().any(|corner| corner.z > 0.0) && !beside()
-    }
-
-    fn plane_holds_x(&self, triangle: u32) -> bool {
-        blocking::plane_holds(&self.motion.rounded(self.geometry.mesh(), triangle), self.frame.x())
     }
 
     /// The triangles whose boxes touch the pyramid over the target and that may block it: one query of the hierarchy for
     /// each offset, where the triangles are at rest and the pyramid is moved back.
-    fn blockers(&self, corners: &[DVec3]) -> Vec<[DVec3; 3]> {
-        let pyramid = pyramid(self.frame, corners);
+    fn blockers(&self, pyramid: &Region) -> Vec<[DVec3; 3]> {
         let mut blockers = Vec::new();
-        for offset in self.motion.offsets() {
+        for &offset in &self.motion.offsets {
             let by = self.motion.similarity(offset);
-            self.geometry.within(&by.before(&pyramid), |triangle| {
+            self.geometry.within(&by.before(pyramid), |triangle| {
                 if self.motion.offset(triangle) == offset && self.may_block(triangle, offset) {
                     let vertices = self.geometry.mesh().triangle(triangle).vertices();
                     blockers.push(vertices.map(|v| self.frame.localize(by.at(v))));
@@ -168,34 +156,11 @@ impl Moved<'_> {
     /// Whether a triangle is neither part of the target nor coplanar with it, nor edge-on to x. What moves alike stays
     /// coplanar.
     fn may_block(&self, triangle: u32, offset: Option<DVec3>) -> bool {
-        let rounded = |triangle| self.motion.rounded(self.geometry.mesh(), triangle);
         let spared = if offset == self.offset() {
             !self.geometry.may_block(triangle, self.target)
         } else {
-            self.own().any(|own| blocking::coplanar(&rounded(own), &rounded(triangle)))
+            self.target().triangles().any(|own| blocking::coplanar(&self.rounded(own), &self.rounded(triangle)))
         };
-        !spared && !self.plane_holds_x(triangle)
+        !spared && !blocking::plane_holds(&self.rounded(triangle), self.frame.x())
     }
-}
-
-/// Whether x is before the front of a polygon.
-fn faces_front(corners: &[DVec3]) -> bool {
-    normal(corners).dot(corners[0]) < 0.0
-}
-
-fn normal(corners: &[DVec3]) -> DVec3 {
-    (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero()
-}
-
-/// The pyramid from x over a polygon, up to its plane and above x's horizon, in world space.
-fn pyramid(frame: &Frame, corners: &[DVec3]) -> Region {
-    let mut around = corners.to_vec();
-    if faces_front(corners) {
-        around.reverse();
-    }
-    let toward = normal(&around);
-    let inward = sides(&around).into_iter().chain(once(DVec3::Z));
-    let base = (frame.to_world(toward), toward.dot(around[0]));
-    let half_spaces = inward.map(|inward| (frame.to_world(-inward), 0.0)).chain(once(base)).collect();
-    Region { origin: frame.x(), half_spaces }
 }

@@ -3,20 +3,24 @@
 use twoforms_estimator::lights::Lights;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::geometry::Geometry;
-use twoforms_geometry::view::Prospect;
+use twoforms_geometry::view::{Need, Prospect, Standing, prospects};
 
 use crate::error::Error;
 use crate::facing::{Facing, Light};
 use crate::moved::Motion;
 use crate::sight::Sight;
 
-/// What the receiver at the origin of `frame` sees of the lights. `f_r` (RGB) scales what arrives: 1 for irradiance, ρ/π for
+/// What the receiver at the origin of `frame` sees of the lights. One that lies on a light stands on the side that it faces: it
+/// gets nothing from that light where it looks straight out of it, and has no answer where some of the light rises above its
+/// horizon. `f_r` (RGB) scales what arrives: 1 for irradiance, ρ/π for
 /// the radiance that a Lambertian surface reflects.
 ///
 /// # Errors
 /// Where there is no exact answer; see [`Error`].
 pub fn look(geometry: &Geometry, lights: &Lights, frame: &Frame, f_r: [f64; 3]) -> Result<Sight, Error> {
-    sight(lights, f_r, 1.0, |target| Prospect::new(geometry, frame, target))
+    let mut seen = Gathering { sight: Sight::dark(&all(lights, 1.0))?, error: None, lights, f_r, growth: 1.0 };
+    prospects(geometry, frame, |prospect| seen.add(prospect));
+    seen.finish()
 }
 
 /// The same with the lights where `motion` has them: radiances stay, areas and powers grow with the scale.
@@ -30,26 +34,63 @@ pub fn look_moved(
     f_r: [f64; 3],
     motion: &Motion,
 ) -> Result<Sight, Error> {
-    sight(lights, f_r, motion.growth(), |target| motion.prospect(geometry, frame, target))
+    let growth = motion.growth();
+    let mut seen = Gathering { sight: Sight::dark(&all(lights, growth))?, error: None, lights, f_r, growth };
+    for target in 0..lights.targets() as u32 {
+        let mut prospect = motion.prospect(geometry, frame, target);
+        if prospect.standing == Standing::OnBack {
+            prospect.standing = Standing::On; // the light was moved there, and may come from either side
+        }
+        seen.add(prospect);
+    }
+    seen.finish()
 }
 
-/// The sight of all targets, each as `prospect` gives it, with areas grown by a factor.
-fn sight(lights: &Lights, f_r: [f64; 3], growth: f64, prospect: impl Fn(u32) -> Prospect) -> Result<Sight, Error> {
-    let facing = (0..lights.targets() as u32).filter_map(|target| {
-        let Prospect { corners, lit, blockers } = prospect(target);
-        let radiance = lights.radiance(target);
-        let index = target as usize;
-        lit.then(|| Facing {
+/// A sight that targets are added to, and the first error.
+struct Gathering<'a> {
+    sight: Sight,
+    error: Option<Error>,
+    lights: &'a Lights,
+    f_r: [f64; 3],
+    /// By how much areas have grown.
+    growth: f64,
+}
+
+impl Gathering<'_> {
+    fn add(&mut self, prospect: Prospect) -> Need {
+        let added = match prospect.standing {
+            _ if self.error.is_some() => Ok(true),
+            Standing::Dark | Standing::OnBack => Ok(true),
+            Standing::On => Err(Error::OnLight { target: prospect.target }),
+            Standing::Lit if prospect.complete => self.sight.add(&self.facing(prospect)).map(|()| true),
+            Standing::Lit => self.sight.add_hidden(&self.facing(prospect)),
+        };
+        match added {
+            Ok(true) => Need::Nothing,
+            Ok(false) => Need::Complete,
+            Err(error) => {
+                self.error = Some(error);
+                Need::Nothing
+            }
+        }
+    }
+
+    fn facing(&self, Prospect { target, corners, blockers, .. }: Prospect) -> Facing {
+        let (index, radiance) = (target as usize, self.lights.radiance(target));
+        Facing {
             target,
-            light: lights.light_of_target()[index] as u32,
+            light: self.lights.light_of_target()[index] as u32,
             corners,
             faces: true,
-            area: lights.areas()[index] * growth,
-            radiance: std::array::from_fn(|c| f64::from(radiance[c]) * f_r[c]),
+            area: self.lights.areas()[index] * self.growth,
+            radiance: std::array::from_fn(|c| f64::from(radiance[c]) * self.f_r[c]),
             blockers,
-        })
-    });
-    Sight::new(&facing.collect::<Vec<_>>(), &all(lights, growth))
+        }
+    }
+
+    fn finish(self) -> Result<Sight, Error> {
+        self.error.map_or(Ok(self.sight), Err)
+    }
 }
 
 /// What selections need of every light.

@@ -10,7 +10,7 @@ use twoforms_estimator::rgb::luminance;
 /// What one receiver sees of all lights.
 #[derive(Clone, Debug)]
 pub struct Sight {
-    /// The facets that emit toward x, in the order of their targets.
+    /// The facets that emit toward x, in the order in which they were added.
     pub seen: Vec<Seen>,
     /// All lights of the scene.
     pub lights: Vec<Light>,
@@ -24,18 +24,47 @@ impl Sight {
     /// Numbers that are not finite, a receiver on a light, or more pieces than can be computed; see
     /// [`Error`].
     pub fn new(facing: &[Facing], lights: &[Light]) -> Result<Self, Error> {
+        let mut sight = Self::dark(lights)?;
+        facing.iter().try_for_each(|target| sight.add(target))?;
+        Ok(sight)
+    }
+
+    /// The sight of a receiver that sees nothing of the lights.
+    ///
+    /// # Errors
+    /// [`Error::BadLight`].
+    pub fn dark(lights: &[Light]) -> Result<Self, Error> {
         let sound = |value: f64| value.is_finite() && value >= 0.0;
-        if let Some(light) = lights.iter().position(|light| !sound(light.area) || !sound(light.power)) {
-            return Err(Error::BadLight { light });
+        match lights.iter().position(|light| !sound(light.area) || !sound(light.power)) {
+            Some(light) => Err(Error::BadLight { light }),
+            None => Ok(Self { seen: Vec::new(), lights: lights.to_vec() }),
         }
-        let mut seen = Vec::with_capacity(facing.len());
-        for target in facing {
-            target.check(lights.len())?;
-            if target.faces {
-                seen.append(&mut Seen::facets(target)?);
-            }
+    }
+
+    /// Adds the visible part and the moments of one more target.
+    ///
+    /// # Errors
+    /// As [`Sight::new`].
+    pub fn add(&mut self, target: &Facing) -> Result<(), Error> {
+        target.check(self.lights.len())?;
+        if target.faces {
+            self.seen.append(&mut Seen::facets(target)?);
         }
-        Ok(Self { seen, lights: lights.to_vec() })
+        Ok(())
+    }
+
+    /// Adds a target if its blockers hide all of it, and says whether they do: then more of them would change nothing.
+    ///
+    /// # Errors
+    /// As [`Sight::new`].
+    pub fn add_hidden(&mut self, target: &Facing) -> Result<bool, Error> {
+        target.check(self.lights.len())?;
+        let mut seen = Seen::facets(target)?;
+        let hidden = seen.iter().all(|seen| seen.pieces.is_empty());
+        if hidden {
+            self.seen.append(&mut seen);
+        }
+        Ok(hidden)
     }
 
     /// Area of all lights in m², each triangle once.

@@ -19,8 +19,16 @@ pub const TOLERANCE: f64 = 4.0 / 16_777_216.0;
 ///
 /// |N·(x − a)| <= tolerance × magnitude × |N| with N = (b − a) × (c − a).
 pub fn plane_holds(triangle: &Triangle, x: DVec3) -> bool {
-    let magnitude = triangle.magnitude().max(x.abs().max_element());
-    within(triangle, x, magnitude)
+    within(triangle, x, magnitude(triangle, x))
+}
+
+/// How far from a triangle's plane x may lie and still be held by it, in metres.
+pub fn reach(triangle: &Triangle, x: DVec3) -> f64 {
+    TOLERANCE * magnitude(triangle, x)
+}
+
+fn magnitude(triangle: &Triangle, x: DVec3) -> f64 {
+    triangle.magnitude().max(x.abs().max_element())
 }
 
 /// Whether two triangles lie in one plane: all vertices of one within the tolerance of the other's plane. Either may be

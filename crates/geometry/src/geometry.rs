@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::blocking;
+use crate::clusters::Clusters;
 use crate::hierarchy::Hierarchy;
 use crate::mesh::{Mesh, Triangle};
 use crate::ray::{Hit, Ray};
@@ -17,6 +18,7 @@ use crate::tracer::{BruteForce, Region, Tracer};
 pub struct Geometry {
     mesh: Arc<Mesh>,
     targets: Vec<Target>,
+    clusters: Clusters,
     tracer: AnyTracer,
     /// The target each emitting triangle belongs to.
     target_of: HashMap<u32, u32>,
@@ -51,7 +53,8 @@ impl Geometry {
                 flush.entry(*triangle).or_default().push(k);
             }
         }
-        Self { mesh, targets, tracer, target_of, spared, flush }
+        let clusters = Clusters::new(&mesh, &targets);
+        Self { mesh, targets, clusters, tracer, target_of, spared, flush }
     }
 
     /// All triangles.
@@ -62,6 +65,11 @@ impl Geometry {
     /// All targets, in scene order.
     pub fn targets(&self) -> &[Target] {
         &self.targets
+    }
+
+    /// The targets in clusters of neighbours.
+    pub fn clusters(&self) -> &Clusters {
+        &self.clusters
     }
 
     /// y = vp(x, Ψ): the first surface that the ray meets. Where an emitter is coplanar with it and the ray meets both,

@@ -3,6 +3,7 @@
 //! Nothing here knows what a surface is made of or how much it emits.
 
 pub mod blocking;
+pub mod clusters;
 pub mod frame;
 pub mod geometry;
 mod hierarchy;

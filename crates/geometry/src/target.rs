@@ -48,6 +48,13 @@ impl Target {
         std::iter::once(first).chain(second)
     }
 
+    /// The triangle whose plane stands for the target's.
+    pub fn first(&self) -> u32 {
+        match self.shape {
+            Shape::Triangle(t) | Shape::Parallelogram { triangles: [t, _], .. } => t,
+        }
+    }
+
     /// World positions of the corners, counter-clockwise from the front: three, or four for a parallelogram.
     pub fn corners(&self, mesh: &Mesh) -> Corners {
         match self.shape {

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
+use twoforms_comparison::on_light::{OnLight, OnLights, Origin};
 use twoforms_comparison::place::{Place, Quantity};
 use twoforms_comparison::viewpoint;
 use twoforms_comparison::world::{Seen, World};
@@ -14,11 +15,21 @@ use crate::{points, run};
 /// Cells on a side of the grid that is taken where a scene has no receivers of its own.
 const DEFAULT_GRID: u32 = 8;
 
+/// Whether places are where the light is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stay {
+    /// They are: those on a light are refused, or left out of a grid.
+    Put,
+    /// A sweep begins there and moves them or the lights.
+    Moving,
+}
+
 /// The places that the command line asks for, never none.
-pub fn places(world: &World, places: &PlacesArgs, run: &RunArgs) -> Result<Vec<Place>> {
+pub fn places(world: &World, places: &PlacesArgs, run: &RunArgs, stay: Stay) -> Result<Vec<Place>> {
     let PlacesArgs { receivers: args, camera, quantity } = places;
     let note = |line: &str| run::note(run, line);
-    let finder = Finder { world, args, camera, quantity: *quantity, note: &note };
+    let lights = (stay == Stay::Put).then(|| OnLights::new(world));
+    let finder = Finder { world, lights, args, camera, quantity: *quantity, note: &note };
     if camera.camera.is_some() {
         self::camera(world, camera)?; // a name that no camera has is told even where nothing looks through it
     }
@@ -59,6 +70,8 @@ const CAMERAS: &str = "--camera auto, or --view EX,EY,EZ,TX,TY,TZ,FOV";
 
 struct Finder<'a> {
     world: &'a World,
+    /// To refuse what lies on a light.
+    lights: Option<OnLights<'a>>,
     args: &'a ReceiverArgs,
     camera: &'a CameraArgs,
     quantity: QuantityArg,
@@ -81,7 +94,18 @@ impl Finder<'_> {
         let [x, y, z] = position.to_array();
         let name = format!("point {},{},{}", short(x), short(y), short(z));
         let quantity = self.quantity_at(position, normal, &name)?;
-        Ok(Place { name, position, normal, quantity, known: None })
+        self.off_lights(Place { name, position, normal, quantity, known: None }, Origin::Given)
+    }
+
+    fn check(&self, place: &Place, origin: Origin) -> Result<(), OnLight> {
+        self.lights.as_ref().map_or(Ok(()), |lights| lights.check(&place.frame(), origin))
+    }
+
+    /// The place, unless it lies on a light.
+    fn off_lights(&self, place: Place, origin: Origin) -> Result<Place> {
+        self.check(&place, origin)
+            .with_context(|| format!("the receiver \"{}\" has no answer", place.name))
+            .map(|()| place)
     }
 
     fn named(&self) -> Result<Vec<Place>> {
@@ -99,11 +123,12 @@ impl Finder<'_> {
         self.with_quantity(named)
     }
 
-    fn with_quantity(&self, mut places: Vec<Place>) -> Result<Vec<Place>> {
-        for place in &mut places {
+    fn with_quantity(&self, named: Vec<Place>) -> Result<Vec<Place>> {
+        let with_quantity = |mut place: Place| {
             place.quantity = self.quantity_at(place.position, place.normal, &place.name)?;
-        }
-        Ok(places)
+            self.off_lights(place, Origin::Given)
+        };
+        named.into_iter().map(with_quantity).collect()
     }
 
     fn pixels(&self) -> Result<Vec<Place>> {
@@ -117,9 +142,10 @@ impl Finder<'_> {
                 bail!("pixel {x},{y} lies outside the image of {width} × {height} pixels: see --width and --height");
             }
             let place = self.seen(&camera, [f64::from(*x) + 0.5, f64::from(*y) + 0.5], [width, height]);
-            place.with_context(|| {
+            let place = place.with_context(|| {
                 format!("pixel {x},{y} sees nothing of the scene: choose another, or another --camera or --view")
-            })
+            })?;
+            self.off_lights(place, Origin::Seen)
         });
         seen.collect()
     }
@@ -138,6 +164,13 @@ impl Finder<'_> {
         }
         if missed > 0 {
             (self.note)(&format!("note: {missed} of {all} grid points see nothing and are left out"));
+        }
+        let (found, mut places) = (places.len(), places);
+        places.retain(|place| self.check(place, Origin::Seen).is_ok());
+        match found - places.len() {
+            0 => {}
+            _ if places.is_empty() => bail!("all grid points lie on the edges of lights: choose another --grid"),
+            on => (self.note)(&format!("note: {on} of {all} grid points lie on the edge of a light and are left out")),
         }
         Ok(places)
     }

@@ -10,7 +10,7 @@ use twoforms_geometry::frame::Frame;
 use twoforms_geometry::lanes::{self, Instructions};
 use twoforms_geometry::real::Real;
 use twoforms_geometry::vector::{Vector, round};
-use twoforms_geometry::view::{Pane, View, Window};
+use twoforms_geometry::view::{Pane, View, Vista};
 
 use super::chunk::{self, Chunk, Light, LightSamples, Look, Piece};
 use super::painter::{Painter, Surface};
@@ -23,7 +23,7 @@ pub(super) struct Beam<'a> {
     painter: &'a Painter<'a>,
     tile: Crop,
     eye: Frame,
-    window: Window,
+    vista: Vista,
     /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
     axes: [[f32; 3]; 3],
 }
@@ -55,16 +55,16 @@ impl<'a> Beam<'a> {
         let toward = |x: u32, y: u32| eye.to_local(painter.toward(f64::from(x), f64::from(y)));
         let Crop { x0, x1, y0, y1 } = tile;
         let corners = [toward(x0, y0), toward(x1, y0), toward(x1, y1), toward(x0, y1)];
-        let window = Window::new(&painter.world.geometry, &eye, &corners)?;
+        let vista = Vista::new(&painter.world.geometry, &eye, &corners)?;
         let side = f64::from(tile.width());
         let axes = [corners[0], (corners[1] - corners[0]) / side, (corners[3] - corners[0]) / side].map(round);
-        Some(Self { painter, tile, eye, window, axes })
+        Some(Self { painter, tile, eye, vista, axes })
     }
 
     /// The pixels of the tile that lie `inside`, row by row.
     pub(super) fn pixels(&self, inside: Crop) -> Result<Vec<Pixel>, BrokenPixel> {
         let places: Vec<[u32; 2]> = inside.pixels().collect();
-        let mut stages: Vec<Option<Stage>> = self.window.panes().iter().map(|_| None).collect();
+        let mut stages: Vec<Option<Stage>> = self.vista.panes().iter().map(|_| None).collect();
         let mut sums = vec![Sum::default(); places.len()];
         let (mut chunk, spp) = (Chunk::new(), self.painter.rendering.spp);
         for (pixel, &[x, y]) in places.iter().enumerate() {
@@ -91,9 +91,9 @@ impl<'a> Beam<'a> {
     ) -> Result<(), BrokenPixel> {
         let spread = self.painter.rendering.filter == PixelFilter::Box;
         let key = self.painter.camera_key;
-        lanes::run(Look { chunk, window: &self.window, axes: self.axes, key, spread });
+        lanes::run(Look { chunk, vista: &self.vista, axes: self.axes, key, spread });
         for pane in chunk.panes() {
-            let stage = stages[pane as usize].get_or_insert_with(|| self.stage(&self.window.panes()[pane as usize]));
+            let stage = stages[pane as usize].get_or_insert_with(|| self.stage(&self.vista.panes()[pane as usize]));
             self.light(chunk, stage, pane).map_err(|(k, source)| self.broken(chunk, places, k, source))?;
         }
         for piece in &chunk.pieces {
@@ -125,7 +125,7 @@ impl<'a> Beam<'a> {
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
             let toward = DVec3::from_array(chunk.toward(k).map(f64::from));
-            let seen = self.seen(&self.window.panes()[pane as usize], toward);
+            let seen = self.seen(&self.vista.panes()[pane as usize], toward);
             let (value, rays) = self.painter.receive(&seen, query, chunk.stream(k)).map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
@@ -156,8 +156,8 @@ impl<'a> Beam<'a> {
 
     fn centre(&self, x: u32, y: u32) -> Option<Centre> {
         let toward = self.eye.to_local(self.painter.toward(f64::from(x) + 0.5, f64::from(y) + 0.5));
-        let (glimpse, some) = self.window.look(Vector::from(round(toward))).parts();
-        some.then(|| self.painter.centre_of(&self.seen(&self.window.panes()[glimpse.pane as usize], toward)))
+        let (glimpse, some) = self.vista.look(Vector::from(round(toward))).parts();
+        some.then(|| self.painter.centre_of(&self.seen(&self.vista.panes()[glimpse.pane as usize], toward)))
     }
 
     fn broken(&self, chunk: &Chunk, places: &[[u32; 2]], k: usize, source: NotFinite) -> BrokenPixel {

@@ -11,7 +11,7 @@ use twoforms_estimator::xi::Key;
 use twoforms_geometry::lanes::Kernel;
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::vector::Vector;
-use twoforms_geometry::view::Window;
+use twoforms_geometry::view::Vista;
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 /// Camera samples that go together.
@@ -140,7 +140,7 @@ impl Chunk {
 /// Where the camera samples look, and what they meet.
 pub(super) struct Look<'c> {
     pub(super) chunk: &'c mut Chunk,
-    pub(super) window: &'c Window,
+    pub(super) vista: &'c Vista,
     /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
     pub(super) axes: [[f32; 3]; 3],
     pub(super) key: Key,
@@ -164,7 +164,7 @@ impl Kernel for Look<'_> {
             };
             let (x, y) = (R::load(&chunk.corner[0][k..]) + dx, R::load(&chunk.corner[1][k..]) + dy);
             let toward = Vector::<R>::splat(first) + Vector::splat(right) * x + Vector::splat(down) * y;
-            let (glimpse, some) = self.window.look(toward).parts();
+            let (glimpse, some) = self.vista.look(toward).parts();
             toward.x.store(&mut chunk.toward[0][k..]);
             toward.y.store(&mut chunk.toward[1][k..]);
             toward.z.store(&mut chunk.toward[2][k..]);

@@ -6,9 +6,10 @@ use super::cone::{Cone, sides_of};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
+use crate::mesh::Triangle;
 use crate::real::{Mask, Real};
 use crate::segment::SurfacePoint;
-use crate::target::{Shape, Sides};
+use crate::target::Sides;
 use crate::vector::{Direction, Vector, round};
 
 /// Numbers in a row of the table of facets.
@@ -73,6 +74,22 @@ impl<R: Real> Facet<R> {
     }
 }
 
+/// How x lies to a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// No light comes from it: x lies off it and does not face a side that emits, or all of it lies below x's horizon. So too
+    /// where x lies in its plane, beside it or on a side that emits and looks out from there: light then comes along that
+    /// plane alone, which is the limit of what comes where x is moved off the plane to the side it faces.
+    Dark,
+    /// Light comes from it, unless something stands between: x is on a side that emits, some of it above x's horizon.
+    Lit,
+    /// x lies on the dark side of a one-sided target and faces away from the side that emits: no light comes from it. At a
+    /// point of no surface, which might as well lie just before the other side, nobody can tell.
+    OnBack,
+    /// x lies on the target, and some of it rises above x's horizon: what comes from it jumps there.
+    On,
+}
+
 /// A facet in binary64, from which the rounded ones come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wide {
@@ -80,6 +97,7 @@ pub(crate) struct Wide {
     count: usize,
     toward: DVec3,
     depth: f64,
+    standing: Standing,
 }
 
 impl Facet<f32> {
@@ -87,25 +105,38 @@ impl Facet<f32> {
     pub(crate) fn wide(geometry: &Geometry, frame: &Frame, target: u32) -> Wide {
         let mesh = geometry.mesh();
         let target = &geometry.targets()[target as usize];
-        let world = target.corners(mesh);
-        let count = world.as_slice().len();
-        let corner = |k: usize| frame.localize(world.as_slice()[k.min(count - 1)].as_dvec3());
-        let corners = [corner(0), corner(1), corner(2), corner(3)];
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-        let distance = -normal.dot(corners[0]);
-        let first = match target.shape {
-            Shape::Triangle(t) | Shape::Parallelogram { triangles: [t, _], .. } => mesh.triangle(t),
-        };
-        let depth = match target.sides {
-            _ if blocking::plane_holds(&first, frame.x()) => 0.0,
-            Sides::Front => distance,
-            Sides::Both => distance.abs(),
-        };
-        Wide { corners, count, toward: normal * -1.0_f64.copysign(distance), depth }
+        let corners = target.corners(mesh);
+        let corners = corners.as_slice().iter().map(|corner| frame.localize(corner.as_dvec3()));
+        Wide::new(corners, target.sides, &mesh.triangle(target.first()), frame.x())
     }
 }
 
 impl Wide {
+    /// A target with these corners in the frame of `x`, three or four; `plane` is a triangle of it in world space.
+    pub(crate) fn new(corners: impl Iterator<Item = DVec3>, sides: Sides, plane: &Triangle, x: DVec3) -> Self {
+        let (mut at, mut count) = ([DVec3::ZERO; 4], 0);
+        for (slot, corner) in at.iter_mut().zip(corners) {
+            *slot = corner;
+            count += 1;
+        }
+        let normal = (at[1] - at[0]).cross(at[2] - at[0]).normalize_or_zero();
+        let distance = -normal.dot(at[0]);
+        let toward = normal * -1.0_f64.copysign(distance);
+        let held = blocking::plane_holds(plane, x);
+        let depth = match sides {
+            _ if held => 0.0,
+            Sides::Front => distance,
+            Sides::Both => distance.abs(),
+        };
+        let mut wide = Self { corners: at, count, toward, depth, standing: Standing::Dark };
+        wide.standing = if held {
+            wide.standing_in_plane(normal, sides, blocking::reach(plane, x))
+        } else {
+            wide.standing_off_plane()
+        };
+        wide
+    }
+
     /// The corners in the frame of x.
     pub(crate) fn corners(&self) -> &[DVec3] {
         &self.corners[..self.count]
@@ -134,7 +165,38 @@ impl Wide {
 
     /// Whether light can come from it: x on a side that emits, and some of the target above x's horizon.
     pub(crate) fn lit(&self) -> bool {
-        self.faces_x() && self.corners().iter().any(|corner| corner.z > 0.0)
+        self.standing == Standing::Lit
+    }
+
+    /// How x lies to it.
+    pub(crate) fn standing(&self) -> Standing {
+        self.standing
+    }
+
+    fn standing_off_plane(&self) -> Standing {
+        if self.faces_x() && self.rises(0.0) { Standing::Lit } else { Standing::Dark }
+    }
+
+    /// Where its plane holds x; `reach` is how far from a plane a point may lie to be held by it.
+    fn standing_in_plane(&self, normal: DVec3, sides: Sides, reach: f64) -> Standing {
+        let (rises, on_back) = (self.rises(reach), sides == Sides::Front && normal.z < -blocking::TOLERANCE);
+        match (self.holds_x(normal, reach), on_back, rises) {
+            (false, ..) | (true, false, false) => Standing::Dark,
+            (true, true, _) => Standing::OnBack,
+            (true, false, true) => Standing::On,
+        }
+    }
+
+    /// Whether a corner lies more than `height` above x's horizon.
+    fn rises(&self, height: f64) -> bool {
+        self.corners().iter().any(|corner| corner.z > height)
+    }
+
+    /// Whether x, which lies in its plane, lies within its outline or no farther from it than `reach`.
+    fn holds_x(&self, normal: DVec3, reach: f64) -> bool {
+        let corners = self.corners();
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).all(|(&v, &w)| normal.cross(w - v).normalize_or_zero().dot(v) <= reach)
     }
 
     /// Distance of x from the plane.

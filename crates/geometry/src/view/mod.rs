@@ -7,11 +7,14 @@
 
 mod cone;
 mod facet;
+mod group;
+mod polygon;
 mod prospect;
 mod pyramid;
 mod shaft;
 mod sight;
 mod vantage;
+mod vista;
 mod window;
 
 use glam::DVec3;
@@ -22,12 +25,12 @@ use crate::real::{Mask, Real};
 use crate::vector::Vector;
 
 pub use cone::Cone;
-pub use facet::Facet;
 use facet::Wide;
-pub use prospect::Prospect;
+pub use facet::{Facet, Standing};
+pub use prospect::{Need, Prospect, prospects};
 pub use sight::{Between, Sight};
 pub use vantage::Vantage;
-pub use window::{Glimpse, Pane, Window};
+pub use vista::{Glimpse, Pane, Vista};
 
 /// Most targets that a view looks at one by one; beyond, rays find them.
 const MANY_TARGETS: usize = 64;

@@ -6,24 +6,32 @@ use glam::DVec3;
 
 use super::cone::edge_planes;
 use super::facet::Wide;
+use super::polygon::Polygon;
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::tracer::Region;
 
-/// The pyramid from x over the part of a target above x's horizon, up to the target's plane.
-pub(crate) struct Pyramid<'f> {
-    facet: &'f Wide,
-    visible: Vec<DVec3>,
-    sides: Vec<DVec3>,
+/// The pyramid from x over the part of a flat polygon above x's horizon, up to the polygon's plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pyramid {
+    toward: DVec3,
+    distance: f64,
+    visible: Polygon,
+    sides: Polygon,
 }
 
-impl<'f> Pyramid<'f> {
+impl Pyramid {
     /// The pyramid over a lit target.
-    pub(crate) fn new(facet: &'f Wide) -> Self {
-        let visible = above_horizon(facet.corners());
-        let sides = edge_planes(&visible).collect();
-        Self { facet, visible, sides }
+    pub(crate) fn new(facet: &Wide) -> Self {
+        let visible = Polygon::above_horizon(facet.corners());
+        let sides = edge_planes(visible.as_slice()).collect();
+        Self { toward: facet.toward(), distance: facet.plane_distance(), visible, sides }
+    }
+
+    /// The part of the polygon above x's horizon.
+    pub(crate) fn visible(&self) -> &[DVec3] {
+        self.visible.as_slice()
     }
 
     /// Visits, in the frame of x, the triangles that may block the target and whose boxes touch the pyramid, by one query
@@ -50,28 +58,34 @@ impl<'f> Pyramid<'f> {
         flow
     }
 
-    /// Whether a triangle stands between x and the target in some direction.
+    /// Whether a triangle meets the pyramid, up to triangles that pass it by a corner.
+    pub(crate) fn meets(&self, corners: &[DVec3; 3]) -> bool {
+        let below_horizon = corners.iter().all(|c| c.z <= 0.0);
+        let behind = corners.iter().all(|&c| self.depth(c) >= self.distance);
+        let outside = |inward: &DVec3| corners.iter().all(|c| inward.dot(*c) <= 0.0);
+        if below_horizon || behind || self.sides.as_slice().iter().any(outside) {
+            return false;
+        }
+        self.planes(corners).all(|inward| self.visible().iter().any(|v| inward.dot(*v) > 0.0))
+    }
+
+    /// The inward normals of the planes through x that bound those directions.
     ///
     /// Along ω the triangle's plane n·y = s lies before the target's m·y = d where s (m·ω) < d (n·ω), that is on one side
     /// of the plane through x with normal d n − s m: needed only for a triangle that crosses the target's plane.
-    pub(crate) fn holds(&self, corners: [DVec3; 3]) -> bool {
-        let (m, d) = (self.facet.toward(), self.facet.plane_distance());
-        let below_horizon = corners.iter().all(|c| c.z <= 0.0);
-        let behind = corners.iter().all(|c| m.dot(*c) >= d);
-        let outside = self.sides.iter().any(|inward| corners.iter().all(|c| inward.dot(*c) <= 0.0));
-        if below_horizon || behind || outside {
-            return false;
-        }
-        let crosses = corners.iter().any(|c| m.dot(*c) > d);
-        let planes: Vec<DVec3> = edge_planes(&corners).chain(crosses.then(|| in_front(corners, m, d))).collect();
-        let misses = planes.iter().any(|inward| self.visible.iter().all(|v| inward.dot(*v) <= 0.0));
-        !misses
+    fn planes(&self, corners: &[DVec3; 3]) -> impl Iterator<Item = DVec3> {
+        let crosses = corners.iter().any(|&c| self.depth(c) > self.distance);
+        edge_planes(corners).chain(crosses.then(|| in_front(*corners, self.toward, self.distance)))
+    }
+
+    fn depth(&self, point: DVec3) -> f64 {
+        self.toward.dot(point)
     }
 
     /// The pyramid in world space.
-    fn region(&self, frame: &Frame) -> Region {
-        let sides = self.sides.iter().map(|&inward| (frame.to_world(-inward), 0.0));
-        let base = (frame.to_world(self.facet.toward()), self.facet.plane_distance());
+    pub(crate) fn region(&self, frame: &Frame) -> Region {
+        let sides = self.sides.as_slice().iter().map(|&inward| (frame.to_world(-inward), 0.0));
+        let base = (frame.to_world(self.toward), self.distance);
         Region { origin: frame.x(), half_spaces: sides.chain([base]).collect() }
     }
 }
@@ -81,19 +95,4 @@ fn in_front([a, b, c]: [DVec3; 3], m: DVec3, d: f64) -> DVec3 {
     let s = n.dot(a);
     let (n, s) = if s < 0.0 { (-n, -s) } else { (n, s) };
     d * n - s * m
-}
-
-/// The part of a convex polygon above x's horizon (z > 0), by Sutherland and Hodgman 1974.
-fn above_horizon(corners: &[DVec3]) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (k, &from) in corners.iter().enumerate() {
-        let to = corners[(k + 1) % corners.len()];
-        if from.z > 0.0 {
-            kept.push(from);
-        }
-        if (from.z > 0.0) != (to.z > 0.0) {
-            kept.push(from.lerp(to, from.z / (from.z - to.z)));
-        }
-    }
-    kept
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::cone::{Cone, Side};
 use super::facet::Wide;
+use super::polygon::Polygon;
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -26,7 +27,7 @@ pub(crate) struct Shaft<'f> {
 impl<'f> Shaft<'f> {
     /// The shaft to a lit target, in the frame of x.
     pub(crate) fn new(facet: &'f Wide, footprint: &'f [DVec3]) -> Self {
-        let visible = above_horizon(facet.corners());
+        let visible = Polygon::above_horizon(facet.corners()).as_slice().to_vec();
         let next = |k: usize| visible[(k + 1) % visible.len()];
         let side = |k: usize| supporting(visible[k], next(k), &visible, footprint);
         let sides = (0..visible.len()).filter_map(side).collect();
@@ -118,19 +119,4 @@ fn supporting(a: DVec3, b: DVec3, target: &[DVec3], footprint: &[DVec3]) -> Opti
     };
     let (inward, least) = footprint.iter().map(plane).max_by(|p, q| p.1.total_cmp(&q.1))?;
     (inward != DVec3::ZERO).then(|| (inward, inward.dot(a) + least))
-}
-
-/// The part of a convex polygon above x's horizon (z > 0), by Sutherland and Hodgman 1974.
-fn above_horizon(corners: &[DVec3]) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (k, &from) in corners.iter().enumerate() {
-        let to = corners[(k + 1) % corners.len()];
-        if from.z > 0.0 {
-            kept.push(from);
-        }
-        if (from.z > 0.0) != (to.z > 0.0) {
-            kept.push(from.lerp(to, from.z / (from.z - to.z)));
-        }
-    }
-    kept
 }

@@ -1,136 +1,93 @@
-//! What an eye sees through a small window.
-
-use std::ops::ControlFlow;
+//! A rectangle that x looks through.
 
 use glam::DVec3;
 
-use super::cone::{Cone, Line, edge_planes, sides_of};
-use crate::blocking;
 use crate::frame::Frame;
-use crate::geometry::Geometry;
-use crate::masked::Masked;
-use crate::real::{Mask, Real, Word};
-use crate::tracer::Region;
-use crate::vector::{Vector, round};
 
-/// Most triangles that are held against every line; beyond, rays are cast.
-const MANY_PANES: usize = 24;
-/// Most candidates looked at before gathering is given up.
-const MANY_CANDIDATES: usize = 8 * MANY_PANES;
-
-/// The triangles in the pyramid from an eye through a window, so that vp(eye, Ψ) for many directions is a few dot products
-/// with the planes of each. In the frame of the eye.
-#[derive(Clone, Debug)]
-pub struct Window {
-    panes: Vec<Pane>,
-}
-
-/// A triangle seen through a window.
-#[derive(Clone, Debug)]
-pub struct Pane {
-    /// Which triangle.
-    pub triangle: u32,
-    /// The part of it in the pyramid, whatever stands before it: a convex polygon, metres.
-    pub outline: Vec<DVec3>,
-    cone: Cone,
-    /// n/s of its plane n·y = s: the plane lies at t along d where 1/t = (n/s)·d.
-    per_t: [f32; 3],
-}
-
-/// Where a line from the eye first meets a surface.
+/// All points at p = w (u, v, 1), w at most the far end, with (u, v) in a rectangle: what a pyramid of four sides holds, x at
+/// its apex. Also what can be said of a polygon's place in it: its rectangle, and the nearest and the farthest of its w.
 #[derive(Clone, Copy, Debug)]
-pub struct Glimpse<R: Real> {
-    /// Which pane.
-    pub pane: R::Word,
-    /// 1/t, t the distance in units of the line's direction.
-    pub per_t: R,
+pub(crate) struct Window {
+    u: [f64; 2],
+    v: [f64; 2],
+    w: [f64; 2],
 }
+
+/// Least w, over the distance beside the axis, of a point whose u and v are taken for known.
+const LEAST: f64 = 1e-6;
+/// Least w, over the distance beside the axis, of a point of a window that is not too wide.
+const NARROW: f64 = 0.3;
+/// What rounding may add to u and v, relative to 1 + |u|.
+const SLACK: f64 = 1e-9;
 
 impl Window {
-    /// What the eye at the origin of `eye` sees between four directions in order around the window, in its frame.
-    ///
-    /// None where that is too much, or where a light lies in the plane of another surface there, which takes a ray to tell
-    /// apart.
-    pub fn new(geometry: &Geometry, eye: &Frame, corners: &[DVec3; 4]) -> Option<Self> {
-        let inward: Vec<DVec3> = edge_planes(corners).collect();
-        let ahead: DVec3 = corners.iter().map(|c| c.normalize_or_zero()).sum();
-        let mut panes: Vec<Pane> = Vec::new();
-        let mut candidates = 0;
-        let mut too_many = false;
-        geometry.within(&region(eye, &inward, ahead), |triangle| {
-            candidates += 1;
-            panes.extend(Pane::new(geometry, eye, &inward, triangle));
-            too_many = candidates > MANY_CANDIDATES || panes.len() > MANY_PANES;
-            if too_many { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        panes.sort_by_key(|pane| pane.triangle);
-        panes.dedup_by_key(|pane| pane.triangle);
-        let among = |t: u32| panes.iter().any(|pane| pane.triangle == t);
-        let ambiguous = panes.iter().any(|pane| geometry.emitters_flush_with(pane.triangle).any(among));
-        (!too_many && !ambiguous).then_some(Self { panes })
+    /// Holds nothing.
+    pub(crate) const NONE: Self =
+        Self { u: [f64::INFINITY, f64::NEG_INFINITY], v: [f64::INFINITY, f64::NEG_INFINITY], w: [f64::INFINITY, 0.0] };
+    const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+    /// The window around points given in another frame, opening along the third axis; `None` where it would be too wide.
+    pub(crate) fn around(axes: &Frame, points: &[DVec3]) -> Option<Self> {
+        Self::by(axes, points, NARROW)
     }
 
-    /// The triangles, by index in the mesh.
-    pub fn panes(&self) -> &[Pane] {
-        &self.panes
+    /// The window around a triangle, which may lie anywhere: unbounded where part of it lies beside or behind x.
+    pub(crate) fn before(axes: &Frame, triangle: &[DVec3; 3]) -> Self {
+        Self::by(axes, triangle, LEAST).unwrap_or(Self { u: Self::ALL, v: Self::ALL, w: [0.0, f64::INFINITY] })
     }
 
-    /// The first surface along each direction (of any length); of several at one distance the first in the mesh.
-    #[inline(always)]
-    pub fn look<R: Real>(&self, toward: Vector<R>) -> Masked<Glimpse<R>, R> {
-        let line = Line { toward, start: None };
-        let (mut per_t, mut pane) = (R::zero(), R::Word::splat(0));
-        for (k, candidate) in self.panes.iter().enumerate() {
-            let here = Vector::splat(candidate.per_t).dot(toward);
-            let nearer = candidate.cone.holds(&line) & per_t.lt(here);
-            if nearer.any() {
-                per_t = R::select(nearer, here, per_t);
-                pane = R::select_word(nearer, R::Word::splat(k as u32), pane);
+    fn by(axes: &Frame, points: &[DVec3], least: f64) -> Option<Self> {
+        let mut window = Self::NONE;
+        for &point in points {
+            let p = axes.localize(point);
+            if p.z <= least * (p.x.abs() + p.y.abs()) {
+                return None;
             }
+            let per_w = 1.0 / p.z;
+            window.hold(p.x * per_w, p.y * per_w, p.z);
         }
-        Masked::new(Glimpse { pane, per_t }, R::zero().lt(per_t))
-    }
-}
-
-impl Pane {
-    fn new(geometry: &Geometry, eye: &Frame, inward: &[DVec3], index: u32) -> Option<Self> {
-        let triangle = geometry.mesh().triangle(index);
-        if blocking::plane_holds(&triangle, eye.x()) {
-            return None;
-        }
-        let corners = triangle.vertices().map(|v| eye.localize(v));
-        let [a, b, c] = corners;
-        let outline = inward.iter().fold(corners.to_vec(), |polygon, inward| clipped(&polygon, *inward));
-        let n = (b - a).cross(c - a);
-        let per_t = round(n / n.dot(a));
-        (outline.len() > 2).then(|| Self { triangle: index, outline, cone: Cone::new(sides_of(&corners)), per_t })
+        Some(window)
     }
 
-    /// The vectors q with q·d/((n/s)·d) = u·(t d − x): they give the coordinate along u of the point of the triangle's
-    /// plane along d, from the point `x` of that plane.
-    pub fn coordinate(&self, u: DVec3, x: DVec3) -> [f32; 3] {
-        let [x_, y, z] = self.per_t.map(f64::from);
-        round(u - DVec3::new(x_, y, z) * u.dot(x))
+    fn hold(&mut self, u: f64, v: f64, w: f64) {
+        let (pad_u, pad_v) = (SLACK * (1.0 + u.abs()), SLACK * (1.0 + v.abs()));
+        self.u = [self.u[0].min(u - pad_u), self.u[1].max(u + pad_u)];
+        self.v = [self.v[0].min(v - pad_v), self.v[1].max(v + pad_v)];
+        self.w = [self.w[0].min(w), self.w[1].max(w)];
     }
-}
 
-fn region(eye: &Frame, inward: &[DVec3], ahead: DVec3) -> Region {
-    let planes = inward.iter().chain([&ahead]);
-    Region { origin: eye.x(), half_spaces: planes.map(|&inward| (eye.to_world(-inward), 0.0)).collect() }
-}
-
-/// The part of a convex polygon with inward·p >= 0, by Sutherland and Hodgman 1974.
-fn clipped(corners: &[DVec3], inward: DVec3) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (k, &from) in corners.iter().enumerate() {
-        let to = corners[(k + 1) % corners.len()];
-        let (p, q) = (inward.dot(from), inward.dot(to));
-        if p >= 0.0 {
-            kept.push(from);
-        }
-        if (p >= 0.0) != (q >= 0.0) {
-            kept.push(from.lerp(to, p / (p - q)));
-        }
+    /// The least window that holds both.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self { u: both(self.u, other.u), v: both(self.v, other.v), w: both(self.w, other.w) }
     }
-    kept
+
+    /// The rectangle that both hold.
+    pub(crate) fn shared(&self, other: &Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
+        Self { u: both(self.u, other.u), v: both(self.v, other.v), w: both(self.w, other.w) }
+    }
+
+    /// The rectangle's area.
+    pub(crate) fn size(&self) -> f64 {
+        (self.u[1] - self.u[0]).max(0.0) * (self.v[1] - self.v[0]).max(0.0)
+    }
+
+    /// Whether the rectangles meet, and something of this lies before the other's far end.
+    #[inline]
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        let meet = |a: [f64; 2], b: [f64; 2]| a[0] <= b[1] && b[0] <= a[1];
+        meet(self.u, other.u) && meet(self.v, other.v) && self.w[0] <= other.w[1]
+    }
+
+    /// Outward normals of the four sides, in its own axes.
+    pub(crate) fn sides(&self) -> [DVec3; 4] {
+        let ([u0, u1], [v0, v1]) = (self.u, self.v);
+        [DVec3::new(-1.0, 0.0, u0), DVec3::new(1.0, 0.0, -u1), DVec3::new(0.0, -1.0, v0), DVec3::new(0.0, 1.0, -v1)]
+    }
+
+    /// The farthest w.
+    pub(crate) fn far(&self) -> f64 {
+        self.w[1]
+    }
 }

@@ -10,5 +10,6 @@ mod leaks;
 mod meshes;
 mod oracle;
 mod placement;
+mod prospects;
 mod surfaces;
 mod views;

@@ -10,6 +10,7 @@ use twoforms_report::Document;
 
 use crate::args::{CompareArgs, once};
 use crate::output::{self, Destination};
+use crate::places::Stay;
 use crate::{places, progress, run};
 
 /// Measures, and prints. `Found::Bias` where a check was asked for and an estimator is biased.
@@ -17,7 +18,7 @@ pub fn run(args: &CompareArgs) -> Result<Found> {
     let started = SystemTime::now();
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
-    let places = places::places(&world, &args.places, &args.run)?;
+    let places = places::places(&world, &args.places, &args.run, Stay::Put)?;
     let destination = Destination::new(args.print.format, args.print.output.as_deref(), args.out.as_deref())?;
     let experiment = Experiment {
         strategies: args.strategies.0.clone(),

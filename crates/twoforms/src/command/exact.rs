@@ -9,6 +9,7 @@ use twoforms_estimator::strategy::Strategy;
 use twoforms_report::{ExactDocument, ReportError, file};
 
 use crate::args::{ExactArgs, Format};
+use crate::places::Stay;
 use crate::{output, places, progress, run};
 
 /// Works out, and prints.
@@ -16,7 +17,8 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     let started = SystemTime::now();
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
-    let places = places::places(&world, &args.places, &args.run)?;
+    let stay = if args.sweep.is_some() { Stay::Moving } else { Stay::Put };
+    let places = places::places(&world, &args.places, &args.run, stay)?;
     if let Some(path) = &args.print.output {
         file::check(path)?;
     }

@@ -114,3 +114,60 @@ fn grid_points_that_see_nothing_are_counted() {
     has_all(&run.out, &["3 receivers"]);
     assert_eq!(run.err, "note: 6 of 9 grid points see nothing and are left out\n");
 }
+
+/// What takes receivers, quickly.
+const ASKING: [&str; 2] = ["exact", "compare --samples 1 --replicates 2 --strategies area/uniform,hemisphere/cosine"];
+
+#[test]
+fn a_receiver_on_a_light_is_refused_unless_it_looks_out() {
+    for command in ASKING {
+        for normal in ["0,1,0", "0.1,-1,0", "0.1,1,0", "1,0,0"] {
+            let says = ["point 0.1,2,0", "lies on the light \"light\"", "more than 4.8e-7 m", "along [0, -1, 0]"];
+            twoforms(&format!("{command} @square-light --at 0.1,2,0,{normal}")).fails(&says);
+        }
+        twoforms(&format!("{command} @square-light --at 0.5,2,0.1,-1,0,0")).fails(&["lies on the light"]);
+    }
+}
+
+/// Looking out from a light that shines downward; in its plane but beside it; and next to it, facing it.
+#[test]
+fn what_a_light_gives_in_its_own_plane() {
+    let number = |value: &Value| value.as_f64().expect("a number");
+    for (at, expected) in
+        [("0.1,2,0,0,-1,0", 0.0), ("0.7,2,0,-1,0,0", 0.0), ("0.1,1.999999,0,0,1,0", std::f64::consts::PI)]
+    {
+        let exact = twoforms(&format!("exact @square-light --at {at} --format json")).json();
+        let exact = number(&exact["receivers"][0]["irradiance"]["luminance"]);
+        assert!((exact - expected).abs() < 1e-9, "{at}: {exact}");
+        let line = "--samples 1 --replicates 2 --strategies hemisphere/cosine --format json";
+        let compared = twoforms(&format!("compare @square-light --at {at} {line}")).json();
+        let compared = &compared["receivers"][0];
+        assert_eq!(number(&compared["exact"]["irradiance"]["luminance"]), exact);
+        assert!((number(&compared["rows"][0]["mean"]["luminance"]) - expected).abs() < 1e-5, "{at}");
+    }
+}
+
+/// The back of a lamp is dark, and a pixel lies on the side from which it is seen.
+#[test]
+fn pixels_on_the_back_of_a_light_are_no_receivers_on_it() {
+    for command in ASKING {
+        let line = format!("{command} @square-light --view 0.1,3,0.1,0,2,0,40 --pixel 32,32 --width 64 --height 64");
+        let document = twoforms(&format!("{line} --format json")).json();
+        let receiver = &document["receivers"][0];
+        assert!((receiver["position"][1].as_f64().expect("a height") - 2.0).abs() < 1e-6, "the pixel sees the light");
+        assert!(receiver["why"].is_null(), "{receiver}");
+    }
+}
+
+#[test]
+fn a_sweep_has_no_value_where_it_meets_a_light() {
+    for sweep in ["receiver.y=0:1:3", "light.y=0:-1:3"] {
+        let line = "exact @square-light --at 0.1,1.5,0,0,1,0 --strategies area/uniform --format json";
+        let document = twoforms(&format!("{line} --sweep {sweep}")).json();
+        let steps = &document["receivers"][0]["sweep"]["steps"];
+        assert!(steps[0]["irradiance"]["luminance"].as_f64().is_some_and(|e| e > 1.0), "{sweep}");
+        assert!(steps[1]["irradiance"].is_null(), "{sweep}");
+        assert!(steps[1]["why"]["irradiance"].as_str().is_some_and(|why| why.contains("lies on target 0")), "{sweep}");
+        assert_eq!(steps[2]["irradiance"]["luminance"], 0.0, "{sweep}");
+    }
+}

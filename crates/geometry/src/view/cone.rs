@@ -93,9 +93,9 @@ impl Cone {
     }
 }
 
-/// The sides of a polygon that is convex as x sees it, its corners in order in the frame of x.
-pub(crate) fn sides_of(corners: &[DVec3]) -> impl Iterator<Item = Side> + '_ {
-    let inward = orientation(corners);
+/// The sides of a convex polygon, its corners in order in the frame of x: counter-clockwise as seen from where the
+/// orientation is +1, clockwise where it is −1.
+pub(crate) fn sides_of(corners: &[DVec3], inward: f64) -> impl Iterator<Item = Side> + '_ {
     let next = |k: usize| corners[(k + 1) % corners.len()];
     (0..corners.len()).map(move |k| Side::new(inward * corners[k].cross(next(k)), inward * (next(k) - corners[k])))
 }
@@ -109,7 +109,7 @@ pub(crate) fn edge_planes(corners: &[DVec3]) -> impl Iterator<Item = DVec3> + '_
 }
 
 /// +1 if the corners run counter-clockwise as x sees them, −1 if clockwise.
-fn orientation(corners: &[DVec3]) -> f64 {
+pub(crate) fn orientation(corners: &[DVec3]) -> f64 {
     let [a, rest @ ..] = corners else { return 1.0 };
     let volume: f64 = rest.windows(2).map(|edge| a.dot(edge[0].cross(edge[1]))).sum();
     1.0_f64.copysign(volume)

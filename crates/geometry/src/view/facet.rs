@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::cone::{Cone, sides_of};
+use super::cone::{Cone, orientation, sides_of};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -52,9 +52,7 @@ impl<R: Real> Facet<R> {
     /// The same facet from a point `start` of a footprint around x.
     #[inline(always)]
     pub(crate) fn seen_from(self, start: Vector<R>) -> Self {
-        let nearer = self.depth - self.toward.dot(start);
-        let depth = R::select(R::zero().lt(self.depth), nearer, self.depth);
-        Self { origin: self.origin - start, depth, ..self }
+        Self { origin: self.origin - start, depth: self.depth - self.toward.dot(start), ..self }
     }
 
     /// The point that two uniform numbers pick, uniform over the area. `target` is the facet's own index.
@@ -98,7 +96,12 @@ pub(crate) struct Wide {
     toward: DVec3,
     depth: f64,
     standing: Standing,
+    /// Whether it is taken as seen from the other side than x's.
+    turned: bool,
 }
+
+/// How far beside a plane a footprint may lie, over its extent, and count as in it.
+const BESIDE: f64 = 1e-6;
 
 impl Facet<f32> {
     /// The facet of a target in the frame of x, in binary64.
@@ -128,7 +131,7 @@ impl Wide {
             Sides::Front => distance,
             Sides::Both => distance.abs(),
         };
-        let mut wide = Self { corners: at, count, toward, depth, standing: Standing::Dark };
+        let mut wide = Self { corners: at, count, toward, depth, standing: Standing::Dark, turned: false };
         wide.standing = if held {
             wide.standing_in_plane(normal, sides, blocking::reach(plane, x))
         } else {
@@ -144,18 +147,36 @@ impl Wide {
 
     /// The cone of lines that meet it.
     pub(crate) fn outline(&self) -> Cone {
-        Cone::new(sides_of(self.corners()))
+        Cone::new(sides_of(
+            self.corners(),
+            if self.turned { -orientation(self.corners()) } else { orientation(self.corners()) },
+        ))
     }
 
-    /// Whether the points of a footprint are all on x's side of the plane, or all in it where x is.
-    pub(crate) fn has_on_one_side(&self, footprint: &[DVec3]) -> bool {
-        let distance = |v: &DVec3| self.plane_distance() - self.toward.dot(*v);
-        let reach = footprint.iter().map(|v| v.length()).fold(0.0, f64::max);
+    /// The same target for all points of a footprint: where some of them lie before a one-sided target and some behind,
+    /// its plane is taken as those before it see it. None where they lie on both sides of a two-sided one, or some in its
+    /// plane.
+    pub(crate) fn over(self, sides: Sides, footprint: &[DVec3]) -> Option<Self> {
+        let height = |v: &DVec3| self.depth - self.toward.dot(*v);
+        let reach = BESIDE * footprint.iter().map(|v| v.length()).fold(0.0, f64::max);
         if self.depth == 0.0 {
-            footprint.iter().all(|v| distance(v).abs() <= 1e-6 * reach)
-        } else {
-            footprint.iter().all(|v| distance(v) > 1e-6 * reach)
+            let flat = footprint.iter().all(|v| self.toward.dot(*v).abs() <= reach);
+            return flat.then_some(Self { toward: DVec3::ZERO, ..self });
         }
+        match sides {
+            Sides::Both => footprint.iter().all(|v| height(v) > reach).then_some(self),
+            Sides::Front => {
+                let turned = self.depth < 0.0;
+                let seen = Self { toward: if turned { -self.toward } else { self.toward }, turned, ..self };
+                let lit = footprint.iter().any(|v| seen.height(*v) > reach) && self.rises(0.0);
+                Some(Self { standing: if lit { Standing::Lit } else { Standing::Dark }, ..seen })
+            }
+        }
+    }
+
+    /// How far a point lies from the plane, on x's side or on the side that emits.
+    pub(crate) fn height(&self, point: DVec3) -> f64 {
+        self.depth - self.toward.dot(point)
     }
 
     /// Whether x is on a side that emits.

@@ -54,16 +54,15 @@ pub struct View<'g> {
 impl<'g> View<'g> {
     /// The view from the origin of `frame`.
     pub fn new(geometry: &'g Geometry, frame: Frame, effort: Effort) -> Self {
-        let sights = sights(geometry, &frame, &[DVec3::ZERO], effort);
-        Self { geometry, frame, sights }
+        let look = |target| Some(Sight::new(geometry, &frame, target, effort));
+        Self { geometry, frame, sights: sights(geometry, look) }
     }
 
     /// The view from every point of a footprint around the origin of `frame`: a convex polygon in the plane z = 0 of the
-    /// frame, in metres. None where its points are on different sides of a target's plane.
+    /// frame, in metres. None where there are too many targets, or its points lie on both sides of one that emits to both.
     pub fn over(geometry: &'g Geometry, frame: Frame, footprint: &[DVec3]) -> Option<Self> {
-        let sights = sights(geometry, &frame, footprint, Effort::Gather)?;
-        let whole = sights.iter().all(|sight| sight.is_on_one_side_of(footprint));
-        whole.then_some(Self { geometry, frame, sights: Some(sights) })
+        let look = |target| Sight::over(geometry, &frame, footprint, target);
+        Some(Self { geometry, frame, sights: Some(sights(geometry, look)?) })
     }
 
     /// All samples look from x.
@@ -116,9 +115,8 @@ impl<'g> View<'g> {
     }
 }
 
-/// What is seen of each target; nothing where there are too many.
-fn sights(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], effort: Effort) -> Option<Vec<Sight>> {
+/// What is seen of each target; none where there are too many.
+fn sights(geometry: &Geometry, look: impl Fn(u32) -> Option<Sight>) -> Option<Vec<Sight>> {
     let count = geometry.targets().len();
-    let look = |target| Sight::new(geometry, frame, footprint, target, effort);
-    (count <= MANY_TARGETS).then(|| (0..count as u32).map(look).collect())
+    if count > MANY_TARGETS { None } else { (0..count as u32).map(look).collect() }
 }

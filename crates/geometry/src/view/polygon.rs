@@ -36,6 +36,23 @@ impl Polygon {
     }
 }
 
+/// The part of a convex polygon where `height` is not below zero, a function that is linear in place (Sutherland and
+/// Hodgman 1974).
+pub(crate) fn clipped(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    for (k, &from) in corners.iter().enumerate() {
+        let to = corners[(k + 1) % corners.len()];
+        let (p, q) = (height(from), height(to));
+        if p >= 0.0 {
+            kept.push(from);
+        }
+        if (p >= 0.0) != (q >= 0.0) {
+            kept.push(from.lerp(to, p / (p - q)));
+        }
+    }
+    kept
+}
+
 impl FromIterator<DVec3> for Polygon {
     fn from_iter<I: IntoIterator<Item = DVec3>>(points: I) -> Self {
         let mut polygon = Self::default();

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::cone::{Cone, Side};
 use super::facet::Wide;
-use super::polygon::Polygon;
+use super::polygon::{Polygon, clipped};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -18,7 +18,7 @@ use crate::tracer::Region;
 /// polygon in the plane of x, or x alone.
 pub(crate) struct Shaft<'f> {
     facet: &'f Wide,
-    footprint: &'f [DVec3],
+    footprint: Vec<DVec3>,
     visible: Vec<DVec3>,
     /// Inward normals n and offsets: inside is n·y >= offset.
     sides: Vec<(DVec3, f64)>,
@@ -26,10 +26,11 @@ pub(crate) struct Shaft<'f> {
 
 impl<'f> Shaft<'f> {
     /// The shaft to a lit target, in the frame of x.
-    pub(crate) fn new(facet: &'f Wide, footprint: &'f [DVec3]) -> Self {
+    pub(crate) fn new(facet: &'f Wide, footprint: &[DVec3]) -> Self {
+        let footprint = clipped(footprint, |v| facet.height(v));
         let visible = Polygon::above_horizon(facet.corners()).as_slice().to_vec();
         let next = |k: usize| visible[(k + 1) % visible.len()];
-        let side = |k: usize| supporting(visible[k], next(k), &visible, footprint);
+        let side = |k: usize| supporting(visible[k], next(k), &visible, &footprint);
         let sides = (0..visible.len()).filter_map(side).collect();
         Self { facet, footprint, visible, sides }
     }

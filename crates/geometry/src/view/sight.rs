@@ -36,9 +36,20 @@ pub enum Between {
 }
 
 impl Sight {
-    /// What is seen of a target from a footprint: a convex polygon in the plane of x, or x alone.
-    pub(crate) fn new(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32, effort: Effort) -> Self {
-        let facet = Facet::wide(geometry, frame, target);
+    /// What x sees of a target.
+    pub(crate) fn new(geometry: &Geometry, frame: &Frame, target: u32, effort: Effort) -> Self {
+        Self::of(geometry, frame, &[DVec3::ZERO], target, Facet::wide(geometry, frame, target), effort)
+    }
+
+    /// What all of a footprint sees of a target, a convex polygon in the plane of x; none where it lies on both sides of one
+    /// that emits to both.
+    pub(crate) fn over(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32) -> Option<Self> {
+        let sides = geometry.targets()[target as usize].sides;
+        let facet = Facet::wide(geometry, frame, target).over(sides, footprint)?;
+        Some(Self::of(geometry, frame, footprint, target, facet, Effort::Gather))
+    }
+
+    fn of(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32, facet: Wide, effort: Effort) -> Self {
         let lit = facet.lit();
         let between = match effort {
             Effort::Gather if lit => gather(geometry, frame, footprint, target, &facet),
@@ -52,11 +63,6 @@ impl Sight {
     #[inline(always)]
     pub fn lit(&self) -> bool {
         self.lit
-    }
-
-    /// Whether every point of a footprint is on the same side of the target's plane, or all of it in the plane.
-    pub(crate) fn is_on_one_side_of(&self, footprint: &[DVec3]) -> bool {
-        self.facet.has_on_one_side(footprint)
     }
 
     /// The directions from x to the target.

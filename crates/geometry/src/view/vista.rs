@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::cone::{Cone, Line, edge_planes, sides_of};
+use super::cone::{Cone, Line, edge_planes, orientation, sides_of};
+use super::polygon::clipped;
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -100,10 +101,15 @@ impl Pane {
         }
         let corners = triangle.vertices().map(|v| eye.localize(v));
         let [a, b, c] = corners;
-        let outline = inward.iter().fold(corners.to_vec(), |polygon, inward| clipped(&polygon, *inward));
+        let outline = inward.iter().fold(corners.to_vec(), |polygon, inward| clipped(&polygon, |p| inward.dot(p)));
         let n = (b - a).cross(c - a);
         let per_t = round(n / n.dot(a));
-        (outline.len() > 2).then(|| Self { triangle: index, outline, cone: Cone::new(sides_of(&corners)), per_t })
+        (outline.len() > 2).then(|| Self {
+            triangle: index,
+            outline,
+            cone: Cone::new(sides_of(&corners, orientation(&corners))),
+            per_t,
+        })
     }
 
     /// The vectors q with q·d/((n/s)·d) = u·(t d − x): they give the coordinate along u of the point of the triangle's
@@ -117,20 +123,4 @@ impl Pane {
 fn region(eye: &Frame, inward: &[DVec3], ahead: DVec3) -> Region {
     let planes = inward.iter().chain([&ahead]);
     Region { origin: eye.x(), half_spaces: planes.map(|&inward| (eye.to_world(-inward), 0.0)).collect() }
-}
-
-/// The part of a convex polygon with inward·p >= 0, by Sutherland and Hodgman 1974.
-fn clipped(corners: &[DVec3], inward: DVec3) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (k, &from) in corners.iter().enumerate() {
-        let to = corners[(k + 1) % corners.len()];
-        let (p, q) = (inward.dot(from), inward.dot(to));
-        if p >= 0.0 {
-            kept.push(from);
-        }
-        if (p >= 0.0) != (q >= 0.0) {
-            kept.push(from.lerp(to, p / (p - q)));
-        }
-    }
-    kept
 }

@@ -78,6 +78,11 @@ impl Geometry {
         !self.tracer.any(&self.mesh, ray, before, |triangle| self.may_block(triangle, target))
     }
 
+    /// Whether the ray meets any surface at a distance below `before`.
+    pub fn blocked(&self, ray: &Ray, before: f64) -> bool {
+        self.tracer.any(&self.mesh, ray, before, |_| true)
+    }
+
     /// Whether a triangle may stand between a target and what sees it: it is neither part of the target nor coplanar with it.
     pub fn may_block(&self, triangle: u32, target: u32) -> bool {
         self.spared[target as usize].binary_search(&triangle).is_err()
@@ -88,7 +93,7 @@ impl Geometry {
         self.target_of.get(&triangle).copied()
     }
 
-    /// Visits every triangle whose bounding box touches the region, and possibly others.
+    /// Visits every triangle that touches the region, and possibly others.
     pub fn within(&self, region: &Region, visit: impl FnMut(u32) -> ControlFlow<()>) {
         self.tracer.within(&self.mesh, region, visit);
     }

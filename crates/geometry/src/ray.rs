@@ -33,9 +33,11 @@ impl Hit {
 
 /// The shear that carries a direction to the unit vector of its largest axis.
 #[derive(Clone, Copy, Debug)]
-struct Shear {
-    axes: [usize; 3],
-    slope: [f64; 2],
+pub(crate) struct Shear {
+    /// The axes x, y, z of the sheared space: z is that of the largest component.
+    pub(crate) axes: [usize; 3],
+    /// d_x / d_z and d_y / d_z.
+    pub(crate) slope: [f64; 2],
     scale: f64,
 }
 
@@ -47,6 +49,11 @@ impl Ray {
         let slope = [direction[axes[0]] / direction[z], direction[axes[1]] / direction[z]];
         let scale = 1.0 / direction[z];
         Self { origin, direction, shear: Shear { axes, slope, scale } }
+    }
+
+    /// The shear that carries its direction to an axis.
+    pub(crate) fn shear(&self) -> &Shear {
+        &self.shear
     }
 
     /// The point at distance `t`.

@@ -1,0 +1,125 @@
+//! The bounding-volume hierarchy: a tree whose nodes have eight children and whose leaves hold eight triangles.
+//!
+//! **The lanes propose, binary64 decides.** Eight boxes or triangles at a time are held against a ray in binary32, in
+//! tests that grant what rounding can do, so that nothing is lost; what they let through is asked again in binary64, by
+//! the very test that [`BruteForce`] asks of every triangle. So every answer is that of brute force to the last bit, on
+//! every machine, whatever instructions it has and in whatever order the tree is walked, and the binary32 tests are free
+//! to fuse, reorder and round as suits the machine.
+
+mod binary;
+mod collapse;
+mod node;
+mod packet;
+mod probe;
+mod stack;
+mod traverse;
+mod within;
+
+use std::ops::ControlFlow;
+
+use fearless_simd::{Level, dispatch};
+
+use self::binary::Binary;
+use self::collapse::Collapse;
+use self::node::{Child, Node, WIDTH};
+use self::packet::Packet;
+use self::probe::HUGE;
+use crate::mesh::Mesh;
+use crate::ray::{Hit, Ray};
+use crate::tracer::{BruteForce, Region, Tracer};
+
+/// A wide hierarchy over the triangles of one mesh.
+pub struct Hierarchy {
+    nodes: Vec<Node>,
+    packets: Vec<Packet>,
+    /// For each packet, the triangles in its lanes.
+    triangles: Vec<[u32; WIDTH]>,
+    root: Option<Child>,
+    /// The largest coordinate of the mesh.
+    magnitude: f32,
+    level: Level,
+}
+
+impl Hierarchy {
+    /// Builds the hierarchy, on all threads, for the best instructions that this machine has.
+    pub fn new(mesh: &Mesh) -> Self {
+        Self::with_level(mesh, Level::new())
+    }
+
+    /// Builds the hierarchy for given instructions.
+    pub fn with_level(mesh: &Mesh, level: Level) -> Self {
+        let magnitude = mesh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+        let mut hierarchy =
+            Self { nodes: Vec::new(), packets: Vec::new(), triangles: Vec::new(), root: None, magnitude, level };
+        let binary = Binary::new(mesh);
+        if binary.len() > 0 {
+            hierarchy.fill(mesh, &binary, &Collapse::new(&binary));
+        }
+        hierarchy
+    }
+
+    /// Bytes held, without those of the mesh.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.packets[..]) + size_of_val(&self.triangles[..])
+    }
+
+    /// Makes nodes and packets, each node's own next to each other, subtree after subtree.
+    fn fill(&mut self, mesh: &Mesh, binary: &Binary, collapse: &Collapse) {
+        let root = self.make(mesh, collapse, 0);
+        self.root = Some(root);
+        let mut unfinished = if root.is_packet() { Vec::new() } else { vec![(root, 0)] };
+        while let Some((child, place)) = unfinished.pop() {
+            let mut node = Node::EMPTY;
+            for (slot, part) in collapse.parts(place).into_iter().enumerate() {
+                let child = self.make(mesh, collapse, part);
+                node.put(slot, child, binary.bounds(part));
+                if !child.is_packet() {
+                    unfinished.push((child, part));
+                }
+            }
+            self.nodes[child.index()] = node;
+        }
+        self.nodes.shrink_to_fit();
+        self.packets.shrink_to_fit();
+        self.triangles.shrink_to_fit();
+    }
+
+    /// Makes what a subtree becomes; a node is still without children.
+    fn make(&mut self, mesh: &Mesh, collapse: &Collapse, part: u32) -> Child {
+        if !collapse.is_packet(part) {
+            self.nodes.push(Node::EMPTY);
+            return Child::node(self.nodes.len() - 1);
+        }
+        let triangles = collapse.triangles(part);
+        let mut lanes = [u32::MAX; WIDTH];
+        lanes[..triangles.len()].copy_from_slice(&triangles);
+        self.triangles.push(lanes);
+        self.packets.push(Packet::new(triangles.iter().map(|&t| mesh.triangle(t))));
+        Child::packet(self.packets.len() - 1)
+    }
+
+    /// Whether lanes can hold the ray: beyond, products overflow, and brute force answers.
+    fn holds(&self, ray: &Ray) -> bool {
+        ray.origin.abs().max_element() < HUGE && f64::from(self.magnitude) < HUGE
+    }
+}
+
+impl Tracer for Hierarchy {
+    fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
+        if !self.holds(ray) {
+            return BruteForce.closest(mesh, ray);
+        }
+        dispatch!(self.level, simd => traverse::closest(simd, self, ray))
+    }
+
+    fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
+        if !self.holds(ray) {
+            return BruteForce.any(mesh, ray, before, blocks);
+        }
+        dispatch!(self.level, simd => traverse::any(simd, self, ray, before, &blocks))
+    }
+
+    fn within(&self, _: &Mesh, region: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
+        let _ = dispatch!(self.level, simd => within::within(simd, self, region, &mut visit));
+    }
+}

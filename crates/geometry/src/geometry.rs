@@ -66,6 +66,7 @@ impl Geometry {
 
     /// y = vp(x, Ψ): the first surface that the ray meets. Where an emitter is coplanar with it and the ray meets both,
     /// the emitter.
+    #[inline]
     pub fn vp(&self, ray: &Ray) -> Option<Hit> {
         let hit = self.tracer.closest(&self.mesh, ray)?;
         let emitter = self.flush.get(&hit.triangle).and_then(|targets| self.emitter_among(ray, targets));
@@ -149,6 +150,7 @@ enum AnyTracer {
 }
 
 impl Tracer for AnyTracer {
+    #[inline]
     fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
         match self {
             Self::Hierarchy(tracer) => tracer.closest(mesh, ray),
@@ -156,6 +158,7 @@ impl Tracer for AnyTracer {
         }
     }
 
+    #[inline]
     fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
         match self {
             Self::Hierarchy(tracer) => tracer.any(mesh, ray, before, blocks),

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::blocking;
 use crate::mesh::{Mesh, Triangle};
-use crate::ray::{Hit, Ray};
+use crate::ray::{Hit, Ray, Shear};
 
 /// Answers questions about the triangles of a mesh. Every answer is a function of the question alone: it depends neither
 /// on the order of traversal nor on which tracer is asked. A triangle whose plane holds the ray's origin is never met
@@ -24,8 +24,8 @@ pub trait Tracer {
 
 /// Distance of the ray's meeting with a triangle, under the blocking rule.
 #[inline(always)]
-pub(crate) fn meet(triangle: &Triangle, ray: &Ray) -> Option<f64> {
-    let t = ray.distance(triangle)?;
+pub(crate) fn meet(triangle: &Triangle, ray: &Ray, shear: &Shear) -> Option<f64> {
+    let t = shear.distance(triangle)?;
     (!blocking::plane_holds(triangle, ray.origin)).then_some(t)
 }
 
@@ -56,15 +56,17 @@ pub struct BruteForce;
 
 impl Tracer for BruteForce {
     fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
-        let hit = |triangle| meet(&mesh.triangle(triangle), ray).map(|t| Hit { t, triangle });
+        let shear = Shear::new(ray);
+        let hit = |triangle| meet(&mesh.triangle(triangle), ray, &shear).map(|t| Hit { t, triangle });
         let hits = (0..mesh.len() as u32).filter_map(hit);
         hits.reduce(|best, hit| if hit.before(&best) { hit } else { best })
     }
 
     fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
+        let shear = Shear::new(ray);
         (0..mesh.len() as u32)
             .filter(|&index| blocks(index))
-            .any(|index| meet(&mesh.triangle(index), ray).is_some_and(|t| t < before))
+            .any(|index| meet(&mesh.triangle(index), ray, &shear).is_some_and(|t| t < before))
     }
 
     fn within(&self, mesh: &Mesh, _: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {

@@ -24,6 +24,7 @@ use self::collapse::Collapse;
 use self::node::{Child, Node, WIDTH};
 use self::packet::Packet;
 use self::probe::HUGE;
+use self::stack::{Deep, Shallow};
 use crate::mesh::Mesh;
 use crate::ray::{Hit, Ray};
 use crate::tracer::{BruteForce, Region, Tracer};
@@ -37,6 +38,10 @@ pub struct Hierarchy {
     root: Option<Child>,
     /// The largest coordinate of the mesh.
     magnitude: f32,
+    /// Rays whose origins have no coordinate as large as this are held against lanes.
+    limit: f64,
+    /// Whether a walk may need more than a shallow stack.
+    deep: bool,
     level: Level,
 }
 
@@ -49,11 +54,13 @@ impl Hierarchy {
     /// Builds the hierarchy for given instructions.
     pub fn with_level(mesh: &Mesh, level: Level) -> Self {
         let magnitude = mesh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-        let mut hierarchy =
-            Self { nodes: Vec::new(), packets: Vec::new(), triangles: Vec::new(), root: None, magnitude, level };
+        let limit = if f64::from(magnitude) < HUGE { HUGE } else { 0.0 };
+        let (nodes, packets, triangles) = (Vec::new(), Vec::new(), Vec::new());
+        let mut hierarchy = Self { nodes, packets, triangles, root: None, magnitude, limit, deep: false, level };
         let binary = Binary::new(mesh);
         if binary.len() > 0 {
             hierarchy.fill(mesh, &binary, &Collapse::new(&binary));
+            hierarchy.deep = hierarchy.pending() > Shallow::ROOM;
         }
         hierarchy
     }
@@ -98,28 +105,49 @@ impl Hierarchy {
         Child::packet(self.packets.len() - 1)
     }
 
+    /// The most entries that the stack of a walk may hold.
+    fn pending(&self) -> usize {
+        let (mut most, mut left) = (0, vec![(self.root, 1)]);
+        while let Some((child, pending)) = left.pop() {
+            most = most.max(pending);
+            let node = child.filter(|child| !child.is_packet()).map(|child| &self.nodes[child.index()]);
+            let children = node.iter().flat_map(|node| node.children()).collect::<Vec<_>>();
+            left.extend(children.iter().map(|&child| (Some(child), pending - 1 + children.len())));
+        }
+        most
+    }
+
     /// Whether lanes can hold the ray: beyond, products overflow, and brute force answers.
+    #[inline(always)]
     fn holds(&self, ray: &Ray) -> bool {
-        ray.origin.abs().max_element() < HUGE && f64::from(self.magnitude) < HUGE
+        ray.origin.abs().max_element() < self.limit
     }
 }
 
 impl Tracer for Hierarchy {
+    #[inline]
     fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
         if !self.holds(ray) {
             return BruteForce.closest(mesh, ray);
         }
-        dispatch!(self.level, simd => traverse::closest(simd, self, ray))
+        if self.deep {
+            return dispatch!(self.level, simd => traverse::closest::<_, Deep>(simd, self, ray));
+        }
+        dispatch!(self.level, simd => traverse::closest::<_, Shallow>(simd, self, ray))
     }
 
+    #[inline]
     fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
         if !self.holds(ray) {
             return BruteForce.any(mesh, ray, before, blocks);
         }
-        dispatch!(self.level, simd => traverse::any(simd, self, ray, before, &blocks))
+        if self.deep {
+            return dispatch!(self.level, simd => traverse::any::<_, Deep>(simd, self, ray, before, &blocks));
+        }
+        dispatch!(self.level, simd => traverse::any::<_, Shallow>(simd, self, ray, before, &blocks))
     }
 
     fn within(&self, _: &Mesh, region: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
-        let _ = dispatch!(self.level, simd => within::within(simd, self, region, &mut visit));
+        let _ = dispatch!(self.level, simd => within::within::<_, Deep>(simd, self, region, &mut visit));
     }
 }

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::probe::Probe;
+use super::probe::{Probe, STRETCH};
 
 /// Boxes in a node, and triangles in a packet.
 pub(super) const WIDTH: usize = 8;
@@ -27,7 +27,7 @@ impl Node {
             [f32::NEG_INFINITY; WIDTH],
             [f32::NEG_INFINITY; WIDTH],
         ],
-        children: [Child(u32::MAX); WIDTH],
+        children: [Child::NONE; WIDTH],
     };
 
     /// Puts a child into a slot.
@@ -39,16 +39,23 @@ impl Node {
         self.children[slot] = child;
     }
 
+    /// The children there are.
+    pub(super) fn children(&self) -> impl Iterator<Item = Child> {
+        self.children.iter().copied().filter(|&child| child != Child::NONE)
+    }
+
     /// Which children the ray enters before `reach`, a bit each, and where: at most the true distance, never more.
     ///
     /// The slab test (Kay and Kajiya 1986), with the faces moved apart by what rounding can do: see [`Probe`].
     #[inline(always)]
-    pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe<S>, reach: f32x8<S>) -> (u32, f32x8<S>) {
-        let face = |row: usize| f32x8::from_slice(simd, &self.bounds[row]);
-        let near = |k: usize| face(probe.near_rows[k]).mul_add(probe.near[k].rate, probe.near[k].start);
-        let far = |k: usize| face(probe.far_rows[k]).mul_add(probe.far[k].rate, probe.far[k].start);
-        let entry = near(0).max(near(1)).max(near(2)).max(f32x8::splat(simd, 0.0));
-        let exit = far(0).min(far(1)).min(far(2)).min(reach);
+    pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32x8<S>) -> (u32, f32x8<S>) {
+        let face = |row: usize, k: usize, start: f32| {
+            f32x8::from_slice(simd, &self.bounds[row]).mul_add(probe.rate[k], f32x8::splat(simd, start))
+        };
+        let near = |k: usize| face(probe.near[k], k, probe.enter[k]);
+        let far = |k: usize| face(probe.far[k], k, probe.leave[k]);
+        let entry = near(0).max(near(1)).max(near(2)).max(0.0);
+        let exit = (far(0).min(far(1)).min(far(2)) * STRETCH).min(reach);
         (entry.simd_le(exit).to_bitmask() as u32, entry)
     }
 }
@@ -59,6 +66,8 @@ pub(super) struct Child(u32);
 
 impl Child {
     const PACKET: u32 = 1 << 31;
+    /// No child.
+    const NONE: Self = Self(u32::MAX);
 
     pub(super) fn node(index: usize) -> Self {
         Self(index as u32)

@@ -5,7 +5,9 @@ use glam::Vec3;
 
 use super::node::WIDTH;
 use super::probe::{EPSILON, Probe, SIGN};
+use crate::blocking;
 use crate::mesh::Triangle;
+use crate::ray::{Ray, Shear};
 
 /// Up to eight triangles. Row 3v + k holds coordinate k of their vertices v; lanes without a triangle hold NaN.
 #[repr(C, align(64))]
@@ -32,8 +34,7 @@ impl Packet {
     }
 
     /// The triangle in a lane.
-    #[inline(always)]
-    pub(super) fn triangle(&self, lane: usize) -> Triangle {
+    fn triangle(&self, lane: usize) -> Triangle {
         let vertex = |v: usize| Vec3::new(self.rows[v][lane], self.rows[v + 1][lane], self.rows[v + 2][lane]);
         Triangle { a: vertex(0), b: vertex(3), c: vertex(6) }
     }
@@ -44,7 +45,22 @@ impl Packet {
         f32x8::from_slice(simd, &self.rows[3 * v + k])
     }
 
-    /// The triangles that the ray may meet at t' in (0, reach], a bit each: all that
+    /// Distance of the ray's meeting with the triangle in a lane, under the blocking rule: as
+    /// [`meet`](crate::tracer::meet), which it asks only where the answer is not plain. No coordinate is beyond `magnitude`.
+    #[inline(always)]
+    pub(super) fn meet(&self, lane: usize, ray: &Ray, shear: &Shear, magnitude: f64) -> Option<f64> {
+        let crossing = shear.crossing(|v, axis| self.rows[3 * v + axis][lane])?;
+        let clear = blocking::clears_plane(&crossing, magnitude, f64::from(self.extent));
+        (clear || !self.holds(lane, ray)).then_some(crossing.t)
+    }
+
+    /// Whether the plane of the triangle in a lane holds the ray's origin.
+    #[cold]
+    fn holds(&self, lane: usize, ray: &Ray) -> bool {
+        blocking::plane_holds(&self.triangle(lane), ray.origin)
+    }
+
+    /// The triangles that the ray may meet within reach, a bit each: all that
     /// [`Ray::distance`](crate::ray::Ray::distance) finds there, and others only within rounding.
     ///
     /// The same test (Woop, Benthin, Wald 2013) in binary32, in which each comparison grants what rounding can do. With
@@ -58,7 +74,7 @@ impl Packet {
     /// - Σ u·z, the sum of the edge functions times depths, differs from t'·Σ u by at most 3m(A + 2L) + (|Σ u| + 8m) d,
     ///   whatever sign a Σ u below 3m has.
     #[inline(always)]
-    pub(super) fn candidates<S: Simd>(&self, simd: S, probe: &Probe<S>, reach: f32x8<S>) -> u32 {
+    pub(super) fn candidates<S: Simd>(&self, simd: S, probe: &Probe, reach: f32x8<S>) -> u32 {
         let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) =
             (self.sheared(simd, probe, 0), self.sheared(simd, probe, 1), self.sheared(simd, probe, 2));
         let u = cx.mul_sub(by, cy * bx);
@@ -78,17 +94,17 @@ impl Packet {
         let far = depth.mul_add(4.0, f32x8::splat(simd, 8.0 * self.extent));
         let slack = far.mul_add(m, m.mul_add(8.0, sum) * d);
         let behind = (along + slack).simd_lt(0.0);
-        let beyond = (along - slack).simd_gt(reach * sum);
+        let beyond = (along - slack).simd_gt(sum * probe.depth * reach);
         (inside & !(behind | beyond)).to_bitmask() as u32
     }
 
     /// Vertex `v` of all triangles, translated by the origin and sheared along the ray; its depth is not divided by d_z.
     #[inline(always)]
-    fn sheared<S: Simd>(&self, simd: S, probe: &Probe<S>, v: usize) -> [f32x8<S>; 3] {
+    fn sheared<S: Simd>(&self, simd: S, probe: &Probe, v: usize) -> [f32x8<S>; 3] {
         let [x, y, z] = probe.axes;
         let depth = self.row(simd, v, z) - probe.origin[2];
         let x = self.row(simd, v, x) - probe.origin[0];
         let y = self.row(simd, v, y) - probe.origin[1];
-        [probe.slope[0].mul_add(depth, x), probe.slope[1].mul_add(depth, y), depth]
+        [depth.mul_add(probe.slope[0], x), depth.mul_add(probe.slope[1], y), depth]
     }
 }

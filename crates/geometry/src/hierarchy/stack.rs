@@ -2,47 +2,66 @@
 
 use super::node::Child;
 
-/// Nodes and packets yet to be visited, each with a lower bound of its distance; deeper trees than the fixed part holds
-/// spill to the heap. An entry is `distance bits << 32 | child`, so that entries order by distance.
-pub(super) struct Stack {
-    fixed: [u64; Self::FIXED],
-    len: usize,
-    spilled: Vec<u64>,
+/// Nodes and packets yet to be visited, each with a lower bound of its distance. An entry is `distance bits << 32 | child`,
+/// so that entries order by distance.
+pub(super) trait Stack {
+    /// An empty stack.
+    fn new() -> Self;
+    /// Puts an entry on top.
+    fn push(&mut self, entry: u64);
+    /// Takes the top entry.
+    fn pop(&mut self) -> Option<u64>;
 }
 
-impl Stack {
-    const FIXED: usize = 32;
+/// A stack for trees that need no more than [`Shallow::ROOM`] entries: it never grows, so that nothing is called from the
+/// loops that use it and all they know of a ray stays in registers.
+pub(super) struct Shallow {
+    entries: [u64; Self::ROOM],
+    len: usize,
+}
 
+impl Shallow {
+    /// Most entries that it holds; a power of two.
+    pub(super) const ROOM: usize = 32;
+}
+
+impl Stack for Shallow {
     #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self { fixed: [0; Self::FIXED], len: 0, spilled: Vec::new() }
+    fn new() -> Self {
+        Self { entries: [0; Self::ROOM], len: 0 }
     }
 
     #[inline(always)]
-    pub(super) fn push(&mut self, entry: u64) {
-        if let Some(slot) = self.fixed.get_mut(self.len) {
-            *slot = entry;
-            self.len += 1;
-        } else {
-            self.spill(entry);
-        }
+    fn push(&mut self, entry: u64) {
+        debug_assert!(self.len < Self::ROOM, "the tree is too deep for this stack");
+        self.entries[self.len % Self::ROOM] = entry;
+        self.len += 1;
     }
 
     #[inline(always)]
-    pub(super) fn pop(&mut self) -> Option<u64> {
-        if self.len == Self::FIXED
-            && let Some(entry) = self.spilled.pop()
-        {
-            return Some(entry);
-        }
+    fn pop(&mut self) -> Option<u64> {
         self.len = self.len.checked_sub(1)?;
-        self.fixed.get(self.len).copied()
+        Some(self.entries[self.len % Self::ROOM])
+    }
+}
+
+/// A stack for trees of any depth.
+pub(super) struct Deep(Vec<u64>);
+
+impl Stack for Deep {
+    #[inline(always)]
+    fn new() -> Self {
+        Self(Vec::with_capacity(4 * Shallow::ROOM))
     }
 
-    #[cold]
-    #[inline(never)]
-    fn spill(&mut self, entry: u64) {
-        self.spilled.push(entry);
+    #[inline(always)]
+    fn push(&mut self, entry: u64) {
+        self.0.push(entry);
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<u64> {
+        self.0.pop()
     }
 }
 

@@ -5,37 +5,34 @@ use std::ops::ControlFlow;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::Hierarchy;
-use super::node::{Node, WIDTH};
+use super::node::Node;
 use super::packet::Packet;
 use super::probe::EPSILON;
 use super::stack::{Stack, entry, parts};
+use super::traverse::lanes;
 use crate::tracer::Region;
 
 /// Visits every triangle that touches the region, and possibly others.
 #[inline(always)]
-pub(super) fn within<S: Simd>(
+pub(super) fn within<S: Simd, T: Stack>(
     simd: S,
     tree: &Hierarchy,
     region: &Region,
     visit: &mut impl FnMut(u32) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
     let planes = Planes::new(region);
-    let mut stack = Stack::new();
+    let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
         if child.is_packet() {
-            let mut touching = planes.packet(simd, &tree.packets[child.index()]);
-            while touching != 0 {
-                let lane = touching.trailing_zeros() as usize % WIDTH;
-                touching &= touching - 1;
+            let touching = planes.packet(simd, &tree.packets[child.index()]);
+            for lane in lanes(touching) {
                 visit(tree.triangles[child.index()][lane])?;
             }
         } else {
             let node = &tree.nodes[child.index()];
-            let mut touching = planes.node(simd, node);
-            while touching != 0 {
-                let slot = touching.trailing_zeros() as usize % WIDTH;
-                touching &= touching - 1;
+            let touching = planes.node(simd, node);
+            for slot in lanes(touching) {
                 stack.push(entry(0.0, node.children[slot]));
             }
         }

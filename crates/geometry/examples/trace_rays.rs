@@ -165,7 +165,8 @@ fn read_mesh(path: &str) -> Result<Mesh, String> {
         return wrong(&format!("{} bytes do not hold {vertices} vertices and {triangles} triangles", bytes.len()));
     }
     let (positions, indices) = rest.split_at(3 * vertices);
-    let positions: Vec<Vec3> = positions.as_chunks().0.iter().map(|p: &[_; 3]| p.map(f32::from_le_bytes).into()).collect();
+    let positions: Vec<Vec3> =
+        positions.as_chunks().0.iter().map(|p: &[_; 3]| p.map(f32::from_le_bytes).into()).collect();
     let indices: Vec<[u32; 3]> = indices.as_chunks().0.iter().map(|t: &[_; 3]| t.map(u32::from_le_bytes)).collect();
     if let Some(k) = positions.iter().position(|p| !p.is_finite()) {
         return wrong(&format!("vertex {k} is not finite"));
@@ -187,7 +188,10 @@ fn read_rays(path: &str) -> Result<Vec<[f32; 8]>, String> {
         .map(|ray| std::array::from_fn(|k| f32::from_le_bytes([0, 1, 2, 3].map(|byte| ray[4 * k + byte]))))
         .collect();
     match rays.iter().position(|ray| !is_ray(ray)) {
-        Some(k) => Err(format!("{path}: ray {k} is {:?}: origin, tmin and direction must be finite, the direction not 0", rays[k])),
+        Some(k) => Err(format!(
+            "{path}: ray {k} is {:?}: origin, tmin and direction must be finite, the direction not 0",
+            rays[k]
+        )),
         None => Ok(rays),
     }
 }

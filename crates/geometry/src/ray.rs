@@ -41,6 +41,15 @@ impl Ray {
         self.origin + self.direction * t
     }
 
+    /// The ray whose direction's largest component is between 1 and 2, and the power of two that divides its distances
+    /// to give those of this one: exact, so that both meet the same triangles.
+    pub(crate) fn scaled(&self) -> (Self, f64) {
+        const EXPONENT: u64 = 0x7ff << 52;
+        let most = self.direction.abs().max_element();
+        let unit = f64::from_bits(most.to_bits() & EXPONENT).max(f64::MIN_POSITIVE);
+        (Self { origin: self.origin, direction: self.direction / unit }, unit)
+    }
+
     /// Distance to the triangle, if the ray meets it beyond its origin: t > 0.
     pub fn distance(&self, triangle: &Triangle) -> Option<f64> {
         Shear::new(self).distance(triangle)

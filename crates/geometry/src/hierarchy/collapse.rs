@@ -103,7 +103,8 @@ impl<'b> Collapse<'b> {
 /// The costs of a subtree and the choices that they come from.
 fn choose(packet: f32, area: f32, left: &Costs, right: &Costs) -> (Costs, Choice) {
     let best = |parts: usize| {
-        let costs = (1..parts).filter(|&k| k < WIDTH && parts - k < WIDTH).map(|k| (left[k - 1] + right[parts - k - 1], k));
+        let costs =
+            (1..parts).filter(|&k| k < WIDTH && parts - k < WIDTH).map(|k| (left[k - 1] + right[parts - k - 1], k));
         costs.fold((f32::INFINITY, 0), |best, next| if next.0 < best.0 { next } else { best })
     };
     let (parts, share) = best(WIDTH);

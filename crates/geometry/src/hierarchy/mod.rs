@@ -12,6 +12,8 @@ mod node;
 mod packet;
 mod probe;
 mod stack;
+#[cfg(test)]
+mod tests;
 mod traverse;
 mod within;
 
@@ -23,8 +25,8 @@ use self::binary::Binary;
 use self::collapse::Collapse;
 use self::node::{Child, Node, WIDTH};
 use self::packet::Packet;
-use self::probe::HUGE;
-use self::stack::{Deep, Shallow};
+use self::probe::{HUGE, STEPS};
+use self::stack::{Depth, Fixed, Growing};
 use crate::mesh::Mesh;
 use crate::ray::{Hit, Ray};
 use crate::tracer::{BruteForce, Region, Tracer};
@@ -40,9 +42,30 @@ pub struct Hierarchy {
     magnitude: f32,
     /// Rays whose origins have no coordinate as large as this are held against lanes.
     limit: f64,
-    /// Whether a walk may need more than a shallow stack.
-    deep: bool,
+    /// The stack that walks need.
+    depth: Depth,
     level: Level,
+}
+
+/// Compiles a walk for each set of instructions and each kind of stack, and runs the one that this machine and this tree
+/// need.
+macro_rules! walk {
+    ($tree:expr, $simd:ident, $stack:ident => $walk:expr) => {
+        match $tree.depth {
+            Depth::Shallow => {
+                type $stack = Fixed<{ Depth::SHALLOW }>;
+                dispatch!($tree.level, $simd => $walk)
+            }
+            Depth::Middling => {
+                type $stack = Fixed<{ Depth::MIDDLING }>;
+                dispatch!($tree.level, $simd => $walk)
+            }
+            Depth::Deep => {
+                type $stack = Growing;
+                dispatch!($tree.level, $simd => $walk)
+            }
+        }
+    };
 }
 
 impl Hierarchy {
@@ -56,18 +79,14 @@ impl Hierarchy {
         let magnitude = mesh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         let limit = if f64::from(magnitude) < HUGE { HUGE } else { 0.0 };
         let (nodes, packets, triangles) = (Vec::new(), Vec::new(), Vec::new());
-        let mut hierarchy = Self { nodes, packets, triangles, root: None, magnitude, limit, deep: false, level };
+        let mut hierarchy =
+            Self { nodes, packets, triangles, root: None, magnitude, limit, depth: Depth::Shallow, level };
         let binary = Binary::new(mesh);
         if binary.len() > 0 {
             hierarchy.fill(mesh, &binary, &Collapse::new(&binary));
-            hierarchy.deep = hierarchy.pending() > Shallow::ROOM;
+            hierarchy.depth = Depth::of(hierarchy.pending());
         }
         hierarchy
-    }
-
-    /// Bytes held, without those of the mesh.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.packets[..]) + size_of_val(&self.triangles[..])
     }
 
     /// Makes nodes and packets, each node's own next to each other, subtree after subtree.
@@ -117,10 +136,20 @@ impl Hierarchy {
         most
     }
 
-    /// Whether lanes can hold the ray: beyond, products overflow, and brute force answers.
+    /// Whether lanes can hold rays from the origin of this one: beyond, products overflow, and brute force answers.
     #[inline(always)]
     fn holds(&self, ray: &Ray) -> bool {
         ray.origin.abs().max_element() < self.limit
+    }
+
+    #[inline(always)]
+    fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        walk!(self, simd, Pending => traverse::closest::<_, Pending>(simd, self, ray))
+    }
+
+    #[inline(always)]
+    fn any_hit(&self, ray: &Ray, before: f64, blocks: &impl Fn(u32) -> bool) -> bool {
+        walk!(self, simd, Pending => traverse::any::<_, Pending>(simd, self, ray, before, blocks))
     }
 }
 
@@ -130,10 +159,11 @@ impl Tracer for Hierarchy {
         if !self.holds(ray) {
             return BruteForce.closest(mesh, ray);
         }
-        if self.deep {
-            return dispatch!(self.level, simd => traverse::closest::<_, Deep>(simd, self, ray));
+        if !STEPS.contains(&ray.direction.abs().max_element()) {
+            let (ray, unit) = ray.scaled();
+            return self.closest_hit(&ray).map(|hit| Hit { t: hit.t / unit, ..hit });
         }
-        dispatch!(self.level, simd => traverse::closest::<_, Shallow>(simd, self, ray))
+        self.closest_hit(ray)
     }
 
     #[inline]
@@ -141,13 +171,14 @@ impl Tracer for Hierarchy {
         if !self.holds(ray) {
             return BruteForce.any(mesh, ray, before, blocks);
         }
-        if self.deep {
-            return dispatch!(self.level, simd => traverse::any::<_, Deep>(simd, self, ray, before, &blocks));
+        if !STEPS.contains(&ray.direction.abs().max_element()) {
+            let (ray, unit) = ray.scaled();
+            return self.any_hit(&ray, before * unit, &blocks);
         }
-        dispatch!(self.level, simd => traverse::any::<_, Shallow>(simd, self, ray, before, &blocks))
+        self.any_hit(ray, before, &blocks)
     }
 
     fn within(&self, _: &Mesh, region: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
-        let _ = dispatch!(self.level, simd => within::within::<_, Deep>(simd, self, region, &mut visit));
+        let _ = dispatch!(self.level, simd => within::within::<_, Growing>(simd, self, region, &mut visit));
     }
 }

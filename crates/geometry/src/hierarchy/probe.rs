@@ -1,5 +1,7 @@
 //! A ray as the lanes see it: rounded to binary32, with what the rounding can do.
 
+use std::ops::Range;
+
 use glam::Vec3A;
 
 use crate::ray::{Ray, Shear};
@@ -7,10 +9,14 @@ use crate::ray::{Ray, Shear};
 /// 2⁻²⁴: what rounding to binary32 changes at most, relative.
 pub(super) const EPSILON: f32 = f32::EPSILON / 2.0;
 
-/// Coordinates from this magnitude on are not held against lanes: products of three of them would overflow.
-pub(super) const HUGE: f64 = (1_u64 << 60) as f64;
+/// Coordinates from this magnitude on are not held against lanes: products would overflow.
+pub(super) const HUGE: f64 = (1_u64 << 40) as f64;
+/// The largest components of directions that are held against lanes as they are.
+pub(super) const STEPS: Range<f64> = 1.0 / (1 << 30) as f64..(1 << 30) as f64;
+/// Scenes smaller than this are taken to be of this size, so that what is granted to rounding does not underflow.
+const SMALL: f32 = 1.0 / (1_u64 << 60) as f32;
 
-/// A slope below this is taken for this, so that its inverse is finite: along any ray within the scene and its origin
+/// A component below this, in units of the largest, is taken for this, so that its inverse is finite: along any ray within the scene and its origin
 /// (a length of at most 4R, R their largest coordinate) the difference is at most 2⁻⁵⁰ R, less than [`GRAZE`] of R.
 const FLAT: f32 = 1.0 / (1_u64 << 52) as f32;
 
@@ -63,7 +69,7 @@ impl Probe {
         let flat = Vec3A::splat(FLAT * step.abs().max_element());
         let rate = 1.0 / Vec3A::select(step.abs().cmplt(flat), flat, step);
         let most = origin.abs().max_element();
-        let apart = origin.abs() * (8.0 * EPSILON) + GRAZE * most.max(magnitude);
+        let apart = origin.abs() * (8.0 * EPSILON) + GRAZE * most.max(magnitude).max(SMALL);
         let (shift, apart) = (origin * rate, apart * rate.abs());
         let negative = rate.is_negative_bitmask();
         let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;

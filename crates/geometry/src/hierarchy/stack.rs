@@ -13,45 +13,40 @@ pub(super) trait Stack {
     fn pop(&mut self) -> Option<u64>;
 }
 
-/// A stack for trees that need no more than [`Shallow::ROOM`] entries: it never grows, so that nothing is called from the
-/// loops that use it and all they know of a ray stays in registers.
-pub(super) struct Shallow {
-    entries: [u64; Self::ROOM],
+/// A stack for trees that never need more than `ROOM` entries, a power of two: it does not grow, so that nothing is called
+/// from the loops that use it.
+pub(super) struct Fixed<const ROOM: usize> {
+    entries: [u64; ROOM],
     len: usize,
 }
 
-impl Shallow {
-    /// Most entries that it holds; a power of two.
-    pub(super) const ROOM: usize = 32;
-}
-
-impl Stack for Shallow {
+impl<const ROOM: usize> Stack for Fixed<ROOM> {
     #[inline(always)]
     fn new() -> Self {
-        Self { entries: [0; Self::ROOM], len: 0 }
+        Self { entries: [0; ROOM], len: 0 }
     }
 
     #[inline(always)]
     fn push(&mut self, entry: u64) {
-        debug_assert!(self.len < Self::ROOM, "the tree is too deep for this stack");
-        self.entries[self.len % Self::ROOM] = entry;
+        debug_assert!(self.len < ROOM, "the tree is too deep for this stack");
+        self.entries[self.len % ROOM] = entry;
         self.len += 1;
     }
 
     #[inline(always)]
     fn pop(&mut self) -> Option<u64> {
         self.len = self.len.checked_sub(1)?;
-        Some(self.entries[self.len % Self::ROOM])
+        Some(self.entries[self.len % ROOM])
     }
 }
 
 /// A stack for trees of any depth.
-pub(super) struct Deep(Vec<u64>);
+pub(super) struct Growing(Vec<u64>);
 
-impl Stack for Deep {
+impl Stack for Growing {
     #[inline(always)]
     fn new() -> Self {
-        Self(Vec::with_capacity(4 * Shallow::ROOM))
+        Self(Vec::with_capacity(256))
     }
 
     #[inline(always)]
@@ -62,6 +57,31 @@ impl Stack for Deep {
     #[inline(always)]
     fn pop(&mut self) -> Option<u64> {
         self.0.pop()
+    }
+}
+
+/// The stack that a tree needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// At most [`Self::SHALLOW`] entries.
+    Shallow,
+    /// At most [`Self::MIDDLING`] entries: that of a million triangles.
+    Middling,
+    /// More.
+    Deep,
+}
+
+impl Depth {
+    pub(super) const SHALLOW: usize = 32;
+    pub(super) const MIDDLING: usize = 128;
+
+    /// The stack for walks that hold up to this many entries.
+    pub(super) fn of(entries: usize) -> Self {
+        match entries {
+            _ if entries <= Self::SHALLOW => Self::Shallow,
+            _ if entries <= Self::MIDDLING => Self::Middling,
+            _ => Self::Deep,
+        }
     }
 }
 

@@ -8,12 +8,15 @@ use super::probe::{Probe, reach_of};
 use super::stack::{Stack, entry, parts};
 use crate::ray::{Hit, Ray, Shear};
 
+/// No triangle's index.
+const NONE: u32 = u32::MAX;
+
 /// The nearest triangle along the ray, the lower index of those at one distance; nearer children first.
 #[inline(always)]
 pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -> Option<Hit> {
     let shear = Shear::new(ray);
     let probe = Probe::new(ray, &shear, tree.magnitude);
-    let mut best = Hit { t: f64::INFINITY, triangle: u32::MAX };
+    let mut best = Hit { t: f64::INFINITY, triangle: NONE };
     let mut reach = f32::INFINITY;
     let mut stack = T::new();
     let mut next = tree.root;
@@ -39,7 +42,7 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -
             next = (distance <= reach).then_some(child);
         }
     }
-    (best.t < f64::INFINITY).then_some(best)
+    (best.triangle != NONE).then_some(best)
 }
 
 /// Whether the ray meets a triangle at a distance below `before` for which `blocks` holds; larger children first, which
@@ -58,7 +61,7 @@ pub(super) fn any<S: Simd, T: Stack>(
     let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
-        if child.is_packet() {
+        next = if child.is_packet() {
             let packet = &tree.packets[child.index()];
             for lane in lanes(packet.candidates(simd, &probe, reach)) {
                 let met = packet.meet(lane, ray, &shear, probe.magnitude).is_some_and(|t| t < before);
@@ -66,14 +69,12 @@ pub(super) fn any<S: Simd, T: Stack>(
                     return true;
                 }
             }
+            None
         } else {
             let node = &tree.nodes[child.index()];
-            let (entered, _) = node.enter(simd, &probe, reach);
-            for slot in lanes(entered.reverse_bits() >> (u32::BITS - WIDTH as u32)) {
-                stack.push(entry(0.0, node.children[WIDTH - 1 - slot]));
-            }
-        }
-        next = stack.pop().map(|entry| parts(entry).1);
+            largest(node, node.enter(simd, &probe, reach).0, &mut stack)
+        };
+        next = next.or_else(|| stack.pop().map(|entry| parts(entry).1));
     }
     false
 }
@@ -90,28 +91,34 @@ pub(super) fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The nearest of the children entered; the others go on the stack, the farthest first.
+/// The largest of the children entered; the others go on the stack, the smallest first.
+#[inline(always)]
+fn largest(node: &Node, entered: u32, stack: &mut impl Stack) -> Option<Child> {
+    let mut others = entered & entered.wrapping_sub(1);
+    while others != 0 {
+        let slot = others.ilog2() as usize % WIDTH;
+        others ^= 1 << slot;
+        stack.push(entry(0.0, node.children[slot]));
+    }
+    (entered != 0).then(|| node.children[entered.trailing_zeros() as usize % WIDTH])
+}
+
+/// The nearest of the children entered; the others go on the stack, the second nearest on top.
 #[inline(always)]
 fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl Stack) -> Option<Child> {
     let child = |slot: usize| entry(distances[slot], node.children[slot]);
     let mut slots = lanes(entered);
-    let first = child(slots.next()?);
-    let Some(second) = slots.next().map(child) else {
-        return Some(parts(first).1);
-    };
-    let Some(third) = slots.next().map(child) else {
-        stack.push(first.max(second));
-        return Some(parts(first.min(second)).1);
-    };
-    let mut sorted = [first, second, third, 0, 0, 0, 0, 0];
-    let mut count = 3;
-    for slot in slots {
-        sorted[count % WIDTH] = child(slot);
-        count += 1;
+    let mut first = child(slots.next()?);
+    if let Some(other) = slots.next().map(child) {
+        let mut second = first.max(other);
+        first = first.min(other);
+        for other in slots.map(child) {
+            stack.push(second.max(other));
+            let nearer = second.min(other);
+            second = first.max(nearer);
+            first = first.min(nearer);
+        }
+        stack.push(second);
     }
-    let sorted = &mut sorted[..count];
-    sorted.sort_unstable_by(|one, other| other.cmp(one));
-    let (last, others) = sorted.split_last()?;
-    others.iter().for_each(|&entry| stack.push(entry));
-    Some(parts(*last).1)
+    Some(parts(first).1)
 }

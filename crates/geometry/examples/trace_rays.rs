@@ -16,11 +16,13 @@ use cpu_time::ProcessTime;
 use glam::{DVec3, Vec3};
 use twoforms_geometry::geometry::Geometry;
 use twoforms_geometry::mesh::Mesh;
-use twoforms_geometry::ray::Ray;
+use twoforms_geometry::ray::{Hit, Ray};
 
 const USAGE: &str = "usage: trace_rays MESH RAYS --mode closest|any [--packet] [--threads N] [--repeat K]";
 /// Rays that a thread takes at a time.
 const CHUNK: usize = 4096;
+/// Rays that are traced together with `--packet`, which is for closest hits alone.
+const TOGETHER: usize = 64;
 
 fn main() -> ExitCode {
     match Task::from_arguments(std::env::args().skip(1)).and_then(|task| run(&task)) {
@@ -132,16 +134,37 @@ fn trace(task: &Task, geometry: &Geometry, rays: &[[f32; 8]]) -> Met {
 }
 
 fn trace_chunk(task: &Task, geometry: &Geometry, rays: &[[f32; 8]]) -> Met {
-    let mut met = Met::default();
-    for beam in rays.iter().map(beam) {
-        if task.any {
-            met.hits += usize::from(geometry.blocked(&beam.ray, beam.end));
-        } else if let Some(hit) = geometry.vp(&beam.ray).filter(|hit| hit.t < beam.end) {
-            met.hits += 1;
-            met.sum_t += beam.start + hit.t;
+    match (task.any, task.packet) {
+        (true, _) => {
+            Met { hits: rays.iter().map(beam).filter(|b| geometry.blocked(&b.ray, b.end)).count(), sum_t: 0.0 }
+        }
+        (false, true) => rays.chunks(TOGETHER).fold(Met::default(), |met, rays| met.and_together(geometry, rays)),
+        (false, false) => rays
+            .iter()
+            .map(beam)
+            .fold(Met::default(), |met, beam| met.and(geometry.vp(&beam.ray), beam.start, beam.end)),
+    }
+}
+
+impl Met {
+    /// With one more hit, if there is any before the ray's end.
+    fn and(self, hit: Option<Hit>, start: f64, end: f64) -> Self {
+        match hit.filter(|hit| hit.t < end) {
+            Some(hit) => Self { hits: self.hits + 1, sum_t: self.sum_t + start + hit.t },
+            None => self,
         }
     }
-    met
+
+    /// With the hits of rays that are traced together.
+    fn and_together(self, geometry: &Geometry, rays: &[[f32; 8]]) -> Self {
+        let mut together = [Ray::new(DVec3::ZERO, DVec3::X); TOGETHER];
+        let mut hits = [None; TOGETHER];
+        for (place, ray) in together.iter_mut().zip(rays) {
+            *place = beam(ray).ray;
+        }
+        geometry.vp_of(&together[..rays.len()], &mut hits[..rays.len()]);
+        rays.iter().map(beam).zip(hits).fold(self, |met, (beam, hit)| met.and(hit, beam.start, beam.end))
+    }
 }
 
 /// The ray from the point at `tmin`, where that is not 0.

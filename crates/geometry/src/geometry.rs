@@ -68,9 +68,15 @@ impl Geometry {
     /// the emitter.
     #[inline]
     pub fn vp(&self, ray: &Ray) -> Option<Hit> {
-        let hit = self.tracer.closest(&self.mesh, ray)?;
-        let emitter = self.flush.get(&hit.triangle).and_then(|targets| self.emitter_among(ray, targets));
-        Some(emitter.unwrap_or(hit))
+        self.tracer.closest(&self.mesh, ray).map(|hit| self.emitter_or(ray, hit))
+    }
+
+    /// y = vp(x, Ψ) of each ray, as [`Self::vp`] gives them: sooner where neighbours run alike, as those of a camera do.
+    pub fn vp_of(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        self.tracer.closest_of(&self.mesh, rays, hits);
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = hit.map(|hit| self.emitter_or(ray, hit));
+        }
     }
 
     /// V(x, y) for the point y at distance `before` along the ray from x, on target `target`: whether nothing that may
@@ -97,6 +103,13 @@ impl Geometry {
     /// Visits every triangle that touches the region, and possibly others.
     pub fn within(&self, region: &Region, visit: impl FnMut(u32) -> ControlFlow<()>) {
         self.tracer.within(&self.mesh, region, visit);
+    }
+
+    /// The emitter that is coplanar with what is met, where the ray meets it too.
+    #[inline]
+    fn emitter_or(&self, ray: &Ray, hit: Hit) -> Hit {
+        let emitter = self.flush.get(&hit.triangle).and_then(|targets| self.emitter_among(ray, targets));
+        emitter.unwrap_or(hit)
     }
 
     fn emitter_among(&self, ray: &Ray, targets: &[u32]) -> Option<Hit> {
@@ -155,6 +168,13 @@ impl Tracer for AnyTracer {
         match self {
             Self::Hierarchy(tracer) => tracer.closest(mesh, ray),
             Self::BruteForce(tracer) => tracer.closest(mesh, ray),
+        }
+    }
+
+    fn closest_of(&self, mesh: &Mesh, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        match self {
+            Self::Hierarchy(tracer) => tracer.closest_of(mesh, rays, hits),
+            Self::BruteForce(tracer) => tracer.closest_of(mesh, rays, hits),
         }
     }
 

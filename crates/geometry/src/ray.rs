@@ -86,6 +86,9 @@ pub(crate) struct Crossing {
 const CYCLES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 impl Shear {
+    /// The shear of no ray.
+    pub(crate) const NONE: Self = Self { axes: [0; 3], origin: [0.0; 3], along: 0.0, slope: [0.0; 2], scale: 0.0 };
+
     /// The shear of a ray.
     #[inline(always)]
     pub(crate) fn new(ray: &Ray) -> Self {

@@ -7,6 +7,7 @@
 //! to fuse, reorder and round as suits the machine.
 
 mod binary;
+mod bundle;
 mod collapse;
 mod node;
 mod packet;
@@ -147,6 +148,22 @@ impl Hierarchy {
         walk!(self, simd, Pending => traverse::closest::<_, Pending>(simd, self, ray))
     }
 
+    /// The nearest triangle along a ray of extreme length.
+    #[cold]
+    #[inline(never)]
+    fn closest_scaled(&self, ray: &Ray) -> Option<Hit> {
+        let (ray, unit) = ray.scaled();
+        self.closest_hit(&ray).map(|hit| Hit { t: hit.t / unit, ..hit })
+    }
+
+    /// Whether a ray of extreme length is blocked.
+    #[cold]
+    #[inline(never)]
+    fn any_scaled(&self, ray: &Ray, before: f64, blocks: &impl Fn(u32) -> bool) -> bool {
+        let (ray, unit) = ray.scaled();
+        self.any_hit(&ray, before * unit, blocks)
+    }
+
     #[inline(always)]
     fn any_hit(&self, ray: &Ray, before: f64, blocks: &impl Fn(u32) -> bool) -> bool {
         walk!(self, simd, Pending => traverse::any::<_, Pending>(simd, self, ray, before, blocks))
@@ -160,10 +177,21 @@ impl Tracer for Hierarchy {
             return BruteForce.closest(mesh, ray);
         }
         if !STEPS.contains(&ray.direction.abs().max_element()) {
-            let (ray, unit) = ray.scaled();
-            return self.closest_hit(&ray).map(|hit| Hit { t: hit.t / unit, ..hit });
+            return self.closest_scaled(ray);
         }
         self.closest_hit(ray)
+    }
+
+    fn closest_of(&self, mesh: &Mesh, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (rays, hits) in rays.chunks(WIDTH).zip(hits.chunks_mut(WIDTH)) {
+            let plain = rays.iter().all(|ray| self.holds(ray) && STEPS.contains(&ray.direction.abs().max_element()));
+            let together = plain && walk!(self, simd, Pending => bundle::closest::<_, Pending>(simd, self, rays, hits));
+            if !together {
+                for (ray, hit) in rays.iter().zip(hits) {
+                    *hit = self.closest(mesh, ray);
+                }
+            }
+        }
     }
 
     #[inline]
@@ -172,8 +200,7 @@ impl Tracer for Hierarchy {
             return BruteForce.any(mesh, ray, before, blocks);
         }
         if !STEPS.contains(&ray.direction.abs().max_element()) {
-            let (ray, unit) = ray.scaled();
-            return self.any_hit(&ray, before * unit, &blocks);
+            return self.any_scaled(ray, before, &blocks);
         }
         self.any_hit(ray, before, &blocks)
     }

@@ -12,7 +12,7 @@ pub(super) const WIDTH: usize = 8;
 /// the upper ones. A slot without a child holds a box that nothing meets.
 #[repr(C, align(64))]
 pub(super) struct Node {
-    pub(super) bounds: [[f32; WIDTH]; 6],
+    bounds: [[f32; WIDTH]; 6],
     pub(super) children: [Child; WIDTH],
 }
 
@@ -44,14 +44,19 @@ impl Node {
         self.children.iter().copied().filter(|&child| child != Child::NONE)
     }
 
+    /// A row of bounds.
+    #[inline(always)]
+    pub(super) fn face<S: Simd>(&self, simd: S, row: usize) -> f32x8<S> {
+        f32x8::from_slice(simd, &self.bounds[row])
+    }
+
     /// Which children the ray enters before `reach`, a bit each, and where: at most the true distance, never more.
     ///
     /// The slab test (Kay and Kajiya 1986), with the faces moved apart by what rounding can do: see [`Probe`].
     #[inline(always)]
     pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32x8<S>) -> (u32, f32x8<S>) {
-        let face = |row: usize, k: usize, start: f32| {
-            f32x8::from_slice(simd, &self.bounds[row]).mul_add(probe.rate[k], f32x8::splat(simd, start))
-        };
+        let face =
+            |row: usize, k: usize, start: f32| self.face(simd, row).mul_add(probe.rate[k], f32x8::splat(simd, start));
         let near = |k: usize| face(probe.near[k], k, probe.enter[k]);
         let far = |k: usize| face(probe.far[k], k, probe.leave[k]);
         let entry = near(0).max(near(1)).max(near(2)).max(0.0);

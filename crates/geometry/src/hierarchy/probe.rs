@@ -36,6 +36,7 @@ pub(super) const SIGN: u32 = 1 << 31;
 /// wrong by 3ε relative (ε = 2⁻²⁴), o, the products and the difference by ε each, so the distance is wrong by at most
 /// 4ε|T| + 4ε|o·r|, fused or not. The faces are moved apart by w = 8ε|o| + 2⁻⁴⁶ R, and the far distance is stretched by
 /// 1 + 16ε: no box is missed that the ray meets.
+#[derive(Clone, Copy)]
 pub(super) struct Probe {
     /// 1/d, for each axis.
     pub(super) rate: [f32; 3],
@@ -45,6 +46,10 @@ pub(super) struct Probe {
     /// The rows of a node that hold the faces where the ray enters, and those where it leaves.
     pub(super) near: [usize; 3],
     pub(super) far: [usize; 3],
+    /// The origin.
+    pub(super) place: [f32; 3],
+    /// By how much the faces are moved apart.
+    pub(super) apart: [f32; 3],
     /// The axes of the shear: z is that of the largest component.
     pub(super) axes: [usize; 3],
     /// The origin along those axes.
@@ -62,6 +67,24 @@ pub(super) struct Probe {
 }
 
 impl Probe {
+    /// The probe of no ray.
+    pub(super) const NONE: Self = Self {
+        rate: [0.0; 3],
+        enter: [0.0; 3],
+        leave: [0.0; 3],
+        near: [0; 3],
+        far: [0; 3],
+        place: [0.0; 3],
+        apart: [0.0; 3],
+        axes: [0; 3],
+        origin: [0.0; 3],
+        slope: [0.0; 2],
+        backward: 0,
+        depth: 0.0,
+        blur: 0.0,
+        magnitude: 0.0,
+    };
+
     /// The probe of a ray through a scene whose largest coordinate is `magnitude`.
     #[inline(always)]
     pub(super) fn new(ray: &Ray, shear: &Shear, magnitude: f32) -> Self {
@@ -70,15 +93,17 @@ impl Probe {
         let rate = 1.0 / Vec3A::select(step.abs().cmplt(flat), flat, step);
         let most = origin.abs().max_element();
         let apart = origin.abs() * (8.0 * EPSILON) + GRAZE * most.max(magnitude).max(SMALL);
-        let (shift, apart) = (origin * rate, apart * rate.abs());
+        let (shift, slack) = (origin * rate, apart * rate.abs());
         let negative = rate.is_negative_bitmask();
         let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
         Self {
             rate: rate.to_array(),
-            enter: (-shift - apart).to_array(),
-            leave: (apart - shift).to_array(),
+            enter: (-shift - slack).to_array(),
+            leave: (slack - shift).to_array(),
             near: [row(0, 0), row(1, 0), row(2, 0)],
             far: [row(0, 1), row(1, 1), row(2, 1)],
+            place: origin.to_array(),
+            apart: apart.to_array(),
             axes: shear.axes,
             origin: [shear.origin[0] as f32, shear.origin[1] as f32, shear.origin[2] as f32],
             slope: [-shear.slope[0] as f32, -shear.slope[1] as f32],

@@ -8,41 +8,48 @@ use super::probe::{Probe, reach_of};
 use super::stack::{Stack, entry, parts};
 use crate::ray::{Hit, Ray, Shear};
 
-/// No triangle's index.
-const NONE: u32 = u32::MAX;
+/// What is met where nothing is.
+pub(super) const NOTHING: Hit = Hit { t: f64::INFINITY, triangle: u32::MAX };
 
 /// The nearest triangle along the ray, the lower index of those at one distance; nearer children first.
 #[inline(always)]
 pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -> Option<Hit> {
     let shear = Shear::new(ray);
     let probe = Probe::new(ray, &shear, tree.magnitude);
-    let mut best = Hit { t: f64::INFINITY, triangle: NONE };
-    let mut reach = f32::INFINITY;
+    let (mut best, mut reach) = (NOTHING, f32::INFINITY);
     let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
         next = if child.is_packet() {
-            let (packet, triangles) = (&tree.packets[child.index()], &tree.triangles[child.index()]);
-            for lane in lanes(packet.candidates(simd, &probe, f32x8::splat(simd, reach))) {
-                if let Some(t) = packet.meet(lane, ray, &shear, probe.magnitude).filter(|&t| t <= best.t) {
-                    let hit = Hit { t, triangle: triangles[lane] };
-                    best = if hit.before(&best) { hit } else { best };
-                    reach = reach_of(best.t);
-                }
-            }
+            closest_in(simd, tree, child, (ray, &shear, &probe), (&mut best, &mut reach));
             None
         } else {
             let node = &tree.nodes[child.index()];
             let (entered, distances) = node.enter(simd, &probe, f32x8::splat(simd, reach));
             nearest(node, entered, distances.as_array(), &mut stack)
         };
-        while next.is_none() {
-            let Some(entry) = stack.pop() else { break };
-            let (distance, child) = parts(entry);
-            next = (distance <= reach).then_some(child);
+        next = next.or_else(|| within_reach(&mut stack, reach));
+    }
+    (best != NOTHING).then_some(best)
+}
+
+/// Takes what is nearer in a packet for the best hit, and how far that reaches.
+#[inline(always)]
+pub(super) fn closest_in<S: Simd>(
+    simd: S,
+    tree: &Hierarchy,
+    child: Child,
+    (ray, shear, probe): (&Ray, &Shear, &Probe),
+    (best, reach): (&mut Hit, &mut f32),
+) {
+    let (packet, triangles) = (&tree.packets[child.index()], &tree.triangles[child.index()]);
+    for lane in lanes(packet.candidates(simd, probe, f32x8::splat(simd, *reach))) {
+        if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
+            let hit = Hit { t, triangle: triangles[lane] };
+            *best = if hit.before(best) { hit } else { *best };
+            *reach = reach_of(best.t);
         }
     }
-    (best.triangle != NONE).then_some(best)
 }
 
 /// Whether the ray meets a triangle at a distance below `before` for which `blocks` holds; larger children first, which
@@ -105,7 +112,7 @@ fn largest(node: &Node, entered: u32, stack: &mut impl Stack) -> Option<Child> {
 
 /// The nearest of the children entered; the others go on the stack, the second nearest on top.
 #[inline(always)]
-fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl Stack) -> Option<Child> {
+pub(super) fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl Stack) -> Option<Child> {
     let child = |slot: usize| entry(distances[slot], node.children[slot]);
     let mut slots = lanes(entered);
     let mut first = child(slots.next()?);
@@ -121,4 +128,15 @@ fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl
         stack.push(second);
     }
     Some(parts(first).1)
+}
+
+/// The next on the stack that begins within reach.
+#[inline(always)]
+pub(super) fn within_reach(stack: &mut impl Stack, reach: f32) -> Option<Child> {
+    loop {
+        let (distance, child) = parts(stack.pop()?);
+        if distance <= reach {
+            return Some(child);
+        }
+    }
 }

@@ -74,7 +74,7 @@ impl Planes {
     /// The children whose boxes may touch the region, a bit each.
     #[inline(always)]
     fn node<S: Simd>(&self, simd: S, node: &Node) -> u32 {
-        let face = |row: usize| f32x8::from_slice(simd, &node.bounds[row]) - self.origin[row % 3];
+        let face = |row: usize| node.face(simd, row) - self.origin[row % 3];
         let low = [face(0), face(1), face(2)];
         let high = [face(3), face(4), face(5)];
         let size = |k: usize| high[k].max(-low[k]);

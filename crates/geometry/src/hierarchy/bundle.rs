@@ -51,17 +51,24 @@ impl Bundle {
     /// Which children may be entered before `reach`, a bit each, and where at the earliest.
     #[inline(always)]
     fn enter<S: Simd>(&self, simd: S, node: &Node, reach: f32) -> (u32, f32x8<S>) {
-        let near = |k: usize| {
-            let way = node.face(simd, self.near[k]) - self.ahead[k];
-            (way * self.rates[k][0]).min(way * self.rates[k][1])
-        };
-        let far = |k: usize| {
-            let way = node.face(simd, self.far[k]) - self.back[k];
-            (way * self.rates[k][0]).max(way * self.rates[k][1])
-        };
-        let entry = near(0).max(near(1)).max(near(2)).max(0.0);
-        let exit = (far(0).min(far(1)).min(far(2)) * STRETCH).min(f32x8::splat(simd, reach));
+        let entry = self.soonest(simd, node, 0).max(self.soonest(simd, node, 1)).max(self.soonest(simd, node, 2));
+        let exit = self.latest(simd, node, 0).min(self.latest(simd, node, 1)).min(self.latest(simd, node, 2));
+        let (entry, exit) = (entry.max(0.0), (exit * STRETCH).min(f32x8::splat(simd, reach)));
         (entry.simd_le(exit).to_bitmask() as u32, entry)
+    }
+
+    /// The least distance of the faces where all enter, along one axis.
+    #[inline(always)]
+    fn soonest<S: Simd>(&self, simd: S, node: &Node, k: usize) -> f32x8<S> {
+        let way = node.face(simd, self.near[k]) - self.ahead[k];
+        (way * self.rates[k][0]).min(way * self.rates[k][1])
+    }
+
+    /// The greatest distance of the faces where all leave, along one axis.
+    #[inline(always)]
+    fn latest<S: Simd>(&self, simd: S, node: &Node, k: usize) -> f32x8<S> {
+        let way = node.face(simd, self.far[k]) - self.back[k];
+        (way * self.rates[k][0]).max(way * self.rates[k][1])
     }
 }
 

@@ -55,13 +55,17 @@ impl Node {
     /// The slab test (Kay and Kajiya 1986), with the faces moved apart by what rounding can do: see [`Probe`].
     #[inline(always)]
     pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32x8<S>) -> (u32, f32x8<S>) {
-        let face =
-            |row: usize, k: usize, start: f32| self.face(simd, row).mul_add(probe.rate[k], f32x8::splat(simd, start));
-        let near = |k: usize| face(probe.near[k], k, probe.enter[k]);
-        let far = |k: usize| face(probe.far[k], k, probe.leave[k]);
+        let near = |k: usize| self.met(simd, probe.near[k], probe.rate[k], probe.enter[k]);
+        let far = |k: usize| self.met(simd, probe.far[k], probe.rate[k], probe.leave[k]);
         let entry = near(0).max(near(1)).max(near(2)).max(0.0);
         let exit = (far(0).min(far(1)).min(far(2)) * STRETCH).min(reach);
         (entry.simd_le(exit).to_bitmask() as u32, entry)
+    }
+
+    /// Where a ray meets a row of faces.
+    #[inline(always)]
+    fn met<S: Simd>(&self, simd: S, row: usize, rate: f32, start: f32) -> f32x8<S> {
+        self.face(simd, row).mul_add(rate, f32x8::splat(simd, start))
     }
 }
 

@@ -74,15 +74,13 @@ impl Planes {
     /// The children whose boxes may touch the region, a bit each.
     #[inline(always)]
     fn node<S: Simd>(&self, simd: S, node: &Node) -> u32 {
-        let face = |row: usize| node.face(simd, row) - self.origin[row % 3];
-        let low = [face(0), face(1), face(2)];
-        let high = [face(3), face(4), face(5)];
-        let size = |k: usize| high[k].max(-low[k]);
-        let blur = size(0).max(size(1)).max(size(2)) * (24.0 * EPSILON);
+        let [x, y, z] = self.origin;
+        let low = [node.face(simd, 0) - x, node.face(simd, 1) - y, node.face(simd, 2) - z];
+        let high = [node.face(simd, 3) - x, node.face(simd, 4) - y, node.face(simd, 5) - z];
+        let blur = largest(low).max(largest(high)) * (24.0 * EPSILON);
         let mut touching = low[0].simd_le(high[0]);
         for plane in &self.planes {
-            let nearest = |k: usize| if plane.normal[k] > 0.0 { low[k] } else { high[k] };
-            touching &= !plane.excludes([nearest(0), nearest(1), nearest(2)], blur);
+            touching &= !plane.excludes(plane.nearest(low, high), blur);
         }
         touching.to_bitmask() as u32
     }
@@ -90,23 +88,42 @@ impl Planes {
     /// The triangles that may touch the region, a bit each.
     #[inline(always)]
     fn packet<S: Simd>(&self, simd: S, packet: &Packet) -> u32 {
-        let vertex = |v: usize| {
-            let coordinate = |k: usize| packet.row(simd, v, k) - self.origin[k];
-            [coordinate(0), coordinate(1), coordinate(2)]
-        };
-        let vertices = [vertex(0), vertex(1), vertex(2)];
-        let size = |v: usize| vertices[v][0].abs().max(vertices[v][1].abs()).max(vertices[v][2].abs());
-        let blur = size(0).max(size(1)).max(size(2)) * (24.0 * EPSILON);
-        let mut touching = vertices[0][0].simd_eq(vertices[0][0]);
+        let [a, b, c] = [self.vertex(simd, packet, 0), self.vertex(simd, packet, 1), self.vertex(simd, packet, 2)];
+        let blur = largest(a).max(largest(b)).max(largest(c)) * (24.0 * EPSILON);
+        let mut touching = a[0].simd_eq(a[0]);
         for plane in &self.planes {
-            let [a, b, c] = vertices;
             touching &= !(plane.excludes(a, blur) & plane.excludes(b, blur) & plane.excludes(c, blur));
         }
         touching.to_bitmask() as u32
     }
+
+    /// A vertex of all triangles, relative to the origin.
+    #[inline(always)]
+    fn vertex<S: Simd>(&self, simd: S, packet: &Packet, v: usize) -> [f32x8<S>; 3] {
+        let [x, y, z] = self.origin;
+        [packet.row(simd, v, 0) - x, packet.row(simd, v, 1) - y, packet.row(simd, v, 2) - z]
+    }
+}
+
+/// The largest magnitude of the coordinates.
+#[inline(always)]
+fn largest<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> f32x8<S> {
+    x.abs().max(y.abs()).max(z.abs())
 }
 
 impl Plane {
+    /// The corner of boxes that is farthest inside.
+    #[inline(always)]
+    fn nearest<S: Simd>(&self, low: [f32x8<S>; 3], high: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+        let mut nearest = high;
+        for k in 0..3 {
+            if self.normal[k] > 0.0 {
+                nearest[k] = low[k];
+            }
+        }
+        nearest
+    }
+
     /// Which points are outside by more than rounding can be.
     #[inline(always)]
     fn excludes<S: Simd>(&self, point: [f32x8<S>; 3], blur: f32x8<S>) -> <f32x8<S> as SimdBase<S>>::Mask {

@@ -50,7 +50,8 @@ impl Ray {
         (Self { origin: self.origin, direction: self.direction / unit }, unit)
     }
 
-    /// Distance to the triangle, if the ray meets it beyond its origin: t > 0.
+    /// Distance to the triangle, if the ray meets it beyond its origin: t > 0. What touches the origin itself is not met,
+    /// since it has a plane that holds the origin and blocks nothing (see [`blocking`](crate::blocking)).
     pub fn distance(&self, triangle: &Triangle) -> Option<f64> {
         Shear::new(self).distance(triangle)
     }

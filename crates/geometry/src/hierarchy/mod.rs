@@ -206,6 +206,6 @@ impl Tracer for Hierarchy {
     }
 
     fn within(&self, _: &Mesh, region: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
-        let _ = dispatch!(self.level, simd => within::within::<_, Growing>(simd, self, region, &mut visit));
+        let _ = walk!(self, simd, Pending => within::within::<_, Pending>(simd, self, region, &mut visit));
     }
 }

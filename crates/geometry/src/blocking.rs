@@ -11,6 +11,7 @@
 use glam::DVec3;
 
 use crate::mesh::Triangle;
+use crate::ray::Crossing;
 
 /// 4 · 2⁻²⁴: the tolerance per metre of coordinate magnitude.
 pub const TOLERANCE: f64 = 4.0 / 16_777_216.0;
@@ -29,6 +30,18 @@ pub fn reach(triangle: &Triangle, x: DVec3) -> f64 {
 
 fn magnitude(triangle: &Triangle, x: DVec3) -> f64 {
     triangle.magnitude().max(x.abs().max_element())
+}
+
+/// Whether a triangle that a ray crosses is so far off the ray's origin that its plane cannot hold it, all coordinates
+/// being at most `magnitude` and the triangle's extents along the axes at most `extent`.
+///
+/// |N| <= 3 L², so that |N·(x − a)| above 4/3 of 3 L² times tolerance and magnitude is enough. The volume, a sum of three
+/// products of three numbers, is wrong by less than 2⁻⁴⁶ (aside + 2L)² times the magnitude.
+#[inline(always)]
+pub(crate) fn clears_plane(crossing: &Crossing, magnitude: f64, extent: f64) -> bool {
+    const ROUNDING: f64 = 1.0 / (1_u64 << 46) as f64;
+    let reach = crossing.aside + 2.0 * extent;
+    crossing.volume > magnitude * (4.0 * TOLERANCE * extent * extent + ROUNDING * reach * reach)
 }
 
 /// Whether two triangles lie in one plane: all vertices of one within the tolerance of the other's plane. Either may be

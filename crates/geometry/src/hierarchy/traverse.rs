@@ -1,0 +1,142 @@
+//! Walking the tree along a ray.
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+use super::Hierarchy;
+use super::node::{Child, Node, WIDTH};
+use super::probe::{Probe, reach_of};
+use super::stack::{Stack, entry, parts};
+use crate::ray::{Hit, Ray, Shear};
+
+/// What is met where nothing is.
+pub(super) const NOTHING: Hit = Hit { t: f64::INFINITY, triangle: u32::MAX };
+
+/// The nearest triangle along the ray, the lower index of those at one distance; nearer children first.
+#[inline(always)]
+pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -> Option<Hit> {
+    let shear = Shear::new(ray);
+    let probe = Probe::new(ray, &shear, tree.magnitude);
+    let (mut best, mut reach) = (NOTHING, f32::INFINITY);
+    let mut stack = T::new();
+    let mut next = tree.root;
+    while let Some(child) = next {
+        next = if child.is_packet() {
+            closest_in(simd, tree, child, (ray, &shear, &probe), (&mut best, &mut reach));
+            None
+        } else {
+            let node = &tree.nodes[child.index()];
+            let (entered, distances) = node.enter(simd, &probe, f32x8::splat(simd, reach));
+            nearest(node, entered, distances.as_array(), &mut stack)
+        };
+        next = next.or_else(|| within_reach(&mut stack, reach));
+    }
+    (best != NOTHING).then_some(best)
+}
+
+/// Takes what is nearer in a packet for the best hit, and how far that reaches.
+#[inline(always)]
+pub(super) fn closest_in<S: Simd>(
+    simd: S,
+    tree: &Hierarchy,
+    child: Child,
+    (ray, shear, probe): (&Ray, &Shear, &Probe),
+    (best, reach): (&mut Hit, &mut f32),
+) {
+    let (packet, triangles) = (&tree.packets[child.index()], &tree.triangles[child.index()]);
+    for lane in lanes(packet.candidates(simd, probe, f32x8::splat(simd, *reach))) {
+        if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
+            let hit = Hit { t, triangle: triangles[lane] };
+            *best = if hit.before(best) { hit } else { *best };
+            *reach = reach_of(best.t);
+        }
+    }
+}
+
+/// Whether the ray meets a triangle at a distance below `before` for which `blocks` holds; larger children first, which
+/// are the likelier to block.
+#[inline(always)]
+pub(super) fn any<S: Simd, T: Stack>(
+    simd: S,
+    tree: &Hierarchy,
+    ray: &Ray,
+    before: f64,
+    blocks: &impl Fn(u32) -> bool,
+) -> bool {
+    let shear = Shear::new(ray);
+    let probe = Probe::new(ray, &shear, tree.magnitude);
+    let reach = f32x8::splat(simd, reach_of(before));
+    let mut stack = T::new();
+    let mut next = tree.root;
+    while let Some(child) = next {
+        next = if child.is_packet() {
+            let packet = &tree.packets[child.index()];
+            for lane in lanes(packet.candidates(simd, &probe, reach)) {
+                let met = packet.meet(lane, ray, &shear, probe.magnitude).is_some_and(|t| t < before);
+                if met && blocks(tree.triangles[child.index()][lane]) {
+                    return true;
+                }
+            }
+            None
+        } else {
+            let node = &tree.nodes[child.index()];
+            largest(node, node.enter(simd, &probe, reach).0, &mut stack)
+        };
+        next = next.or_else(|| stack.pop().map(|entry| parts(entry).1));
+    }
+    false
+}
+
+/// The lanes of a mask, lowest first.
+#[inline(always)]
+pub(super) fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = mask.trailing_zeros() as usize % WIDTH;
+        (mask != 0).then(|| {
+            mask &= mask - 1;
+            lane
+        })
+    })
+}
+
+/// The largest of the children entered; the others go on the stack, the smallest first.
+#[inline(always)]
+fn largest(node: &Node, entered: u32, stack: &mut impl Stack) -> Option<Child> {
+    let mut others = entered & entered.wrapping_sub(1);
+    while others != 0 {
+        let slot = others.ilog2() as usize % WIDTH;
+        others ^= 1 << slot;
+        stack.push(entry(0.0, node.children[slot]));
+    }
+    (entered != 0).then(|| node.children[entered.trailing_zeros() as usize % WIDTH])
+}
+
+/// The nearest of the children entered; the others go on the stack, the second nearest on top.
+#[inline(always)]
+pub(super) fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl Stack) -> Option<Child> {
+    let child = |slot: usize| entry(distances[slot], node.children[slot]);
+    let mut slots = lanes(entered);
+    let mut first = child(slots.next()?);
+    if let Some(other) = slots.next().map(child) {
+        let mut second = first.max(other);
+        first = first.min(other);
+        for other in slots.map(child) {
+            stack.push(second.max(other));
+            let nearer = second.min(other);
+            second = first.max(nearer);
+            first = first.min(nearer);
+        }
+        stack.push(second);
+    }
+    Some(parts(first).1)
+}
+
+/// The next on the stack that begins within reach.
+#[inline(always)]
+pub(super) fn within_reach(stack: &mut impl Stack, reach: f32) -> Option<Child> {
+    loop {
+        let (distance, child) = parts(stack.pop()?);
+        if distance <= reach {
+            return Some(child);
+        }
+    }
+}

@@ -86,7 +86,7 @@ impl<R: Real> Xi<R> {
         const HALF: u32 = RUN as u32;
         let counter = index / (2 * HALF) * HALF + index % HALF;
         let [a, b, c, d] = philox4x32_10([Word::splat(counter), Word::splat(0), one, other], key.0);
-        Self { words: if index / HALF % 2 == 0 { [a, b] } else { [c, d] } }
+        Self { words: if (index / HALF).is_multiple_of(2) { [a, b] } else { [c, d] } }
     }
 
     /// ξ of the samples from `offset` on.

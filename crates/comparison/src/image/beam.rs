@@ -12,7 +12,7 @@ use twoforms_geometry::real::Real;
 use twoforms_geometry::vector::{Vector, round};
 use twoforms_geometry::view::{Pane, View, Vista};
 
-use super::chunk::{self, Chunk, Light, LightSamples, Look, Piece};
+use super::chunk::{self, Chunk, LightSamples, Look, Piece, Receive};
 use super::painter::{Painter, Surface};
 use super::{Centre, Crop, Pixel, PixelFilter};
 use crate::error::BrokenPixel;
@@ -197,7 +197,7 @@ impl lanes::Kernel for AddPiece<'_> {
     }
 }
 
-/// [`Light`] with its estimator yet to be chosen.
+/// [`Receive`] with its estimator yet to be chosen.
 struct Lighting<'c> {
     chunk: &'c mut Chunk,
     light: LightSamples,
@@ -210,6 +210,6 @@ impl Kernel for Lighting<'_> {
 
     fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) {
         let Self { chunk, light, pane, along } = self;
-        Instructions::best().run(Light { chunk, estimator, light, pane, along });
+        Instructions::best().run(Receive { chunk, estimator, light, pane, along });
     }
 }

@@ -15,7 +15,7 @@ use twoforms_geometry::view::Vista;
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 /// Camera samples that go together.
-pub(super) const SIZE: usize = 1024;
+pub(super) const SIZE: usize = 512;
 /// The pane of a sample that meets nothing.
 pub(super) const NOTHING: u32 = u32::MAX;
 
@@ -175,7 +175,7 @@ impl Kernel for Look<'_> {
 }
 
 /// The light samples of the camera samples that meet one pane, from where they meet it.
-pub(super) struct Light<'c, 'a, F, D> {
+pub(super) struct Receive<'c, 'a, F, D> {
     pub(super) chunk: &'c mut Chunk,
     pub(super) estimator: &'c Estimator<'a, F, D>,
     pub(super) light: LightSamples,
@@ -195,7 +195,7 @@ pub(super) struct LightSamples {
 /// Numbers side by side, at most.
 const ROOM: usize = 2 * EIGHT;
 
-impl<F: Formulation, D: Density<F::Measure>> Kernel for Light<'_, '_, F, D> {
+impl<F: Formulation, D: Density<F::Measure>> Kernel for Receive<'_, '_, F, D> {
     type Output = ();
 
     #[inline(always)]

@@ -83,6 +83,7 @@ impl<'a> Painter<'a> {
         Ok(pixels)
     }
 
+    /// A pixel ray by ray.
     fn pixel(&self, x: u32, y: u32) -> Result<Pixel, BrokenPixel> {
         let Rendering { spp, strategy, .. } = *self.rendering;
         let mut channels: [Vec<f64>; 3] = Default::default();
@@ -184,5 +185,71 @@ impl Kernel for Secondary {
     fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
         let estimate = estimator.secondary(self.n, Stream { sampler: self.sampler, draws: self.draws })?;
         Ok((estimate.value, estimate.rays))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use twoforms_estimator::sampler::Sampler;
+    use twoforms_estimator::strategy::Strategy;
+    use twoforms_scene::Scene;
+
+    use super::Painter;
+    use crate::image::{Crop, Pixel, PixelFilter, Rendering};
+    use crate::viewpoint;
+    use crate::world::World;
+
+    fn world(name: &str) -> World {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenes/{name}.gltf"));
+        World::new(Scene::load(&path).expect("a scene of the project")).expect("a scene with lights")
+    }
+
+    fn rendering(strategy: Strategy, radiance: bool) -> Rendering {
+        let crop = Crop { x0: 0, x1: 48, y0: 0, y1: 48 };
+        Rendering {
+            strategy,
+            sampler: Sampler::Independent,
+            width: 48,
+            height: 48,
+            crop,
+            spp: 5,
+            light_samples: 18,
+            filter: PixelFilter::Box,
+            cull: false,
+            radiance,
+            seed: 3,
+        }
+    }
+
+    fn differ(one: &Pixel, other: &Pixel) -> bool {
+        let close = |a: f64, b: f64| (a - b).abs() <= 2e-5 * (a.abs() + b.abs()) + 1e-9;
+        let values = |p: &Pixel| [p.mean, p.variance.map(f64::sqrt)].concat();
+        let same = values(one).iter().zip(values(other)).all(|(&a, b)| close(a, b));
+        !same || one.rays != other.rays || one.centre.is_some() != other.centre.is_some()
+    }
+
+    /// Beams and rays draw the same samples, which differ by rounding alone, or by more within rounding of an edge.
+    #[test]
+    fn beams_see_what_rays_see() {
+        let mut pixels = [0, 0];
+        for name in ["cornell-box", "two-lights", "square-light", "nori-light-3", "tiny-far-light", "furnace"] {
+            let world = world(name);
+            let auto = viewpoint::auto(&world.scene.mesh);
+            let camera = world.scene.cameras.first().or(auto.as_ref()).expect("a camera");
+            for strategy in Strategy::all() {
+                let rendering = rendering(strategy, strategy != Strategy::HemisphereUniform);
+                let painter = Painter::new(&rendering, &world, camera).expect("a strategy that can be sampled");
+                let beams = rendering.run(&world, camera, &|_| ()).expect("finite samples");
+                let rays = rendering.crop.pixels().map(|[x, y]| painter.pixel(x, y).expect("finite samples"));
+                let differing = beams.iter().zip(rays).filter(|(beam, ray)| differ(beam, ray)).count();
+                pixels[0] += differing;
+                pixels[1] += beams.len();
+                assert!(differing <= 8, "{name}, {strategy}: {differing} pixels differ");
+            }
+        }
+        let [differing, all] = pixels;
+        assert!(all > 0 && differing * 500 < all, "{differing} of {all} pixels differ");
     }
 }

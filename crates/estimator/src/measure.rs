@@ -88,9 +88,9 @@ impl<R: Real> Aim<R> {
 
     /// y = vp(x, Ψ); of a direction aimed at a target, only where y lies on it. A density aims all its samples or none.
     #[inline(always)]
-    pub fn vp(&self, view: &Vantage<R>) -> Masked<SurfacePoint<R>, R> {
+    pub fn vp(&self, from: &Vantage<R>) -> Masked<SurfacePoint<R>, R> {
         let aimed = !R::same(self.target, R::Word::splat(ANYWHERE));
-        if aimed.any() { view.vp_on(self.target, self.psi) } else { view.vp(self.psi) }
+        if aimed.any() { from.vp_on(self.target, self.psi) } else { from.vp(self.psi) }
     }
 }
 

@@ -22,10 +22,10 @@ pub struct CosineHemisphere;
 impl Density<SolidAngle> for UniformHemisphere {
     /// cosθ = u, φ = 2πv.
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let [u, v] = xi.uv();
         let sin_theta = ((R::one() - u) * (R::one() + u)).sqrt();
-        drawn(self, view, Direction::polar(u, sin_theta, v))
+        drawn(self, from, Direction::polar(u, sin_theta, v))
     }
 
     #[inline(always)]
@@ -37,9 +37,9 @@ impl Density<SolidAngle> for UniformHemisphere {
 impl Density<SolidAngle> for CosineHemisphere {
     /// cosθ = √u, φ = 2πv.
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+    fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let [u, v] = xi.uv();
-        drawn(self, view, Direction::polar(u.sqrt(), (R::one() - u).sqrt(), v))
+        drawn(self, from, Direction::polar(u.sqrt(), (R::one() - u).sqrt(), v))
     }
 
     #[inline(always)]
@@ -52,9 +52,9 @@ impl Density<SolidAngle> for CosineHemisphere {
 #[inline(always)]
 fn drawn<R: Real>(
     density: &impl Density<SolidAngle>,
-    view: &Vantage<R>,
+    from: &Vantage<R>,
     psi: Direction<R>,
 ) -> Masked<Sample<SolidAngle, R>, R> {
     let at = Aim::anywhere(psi);
-    density.pdf(view, &at).map(|pdf| Sample { at, pdf })
+    density.pdf(from, &at).map(|pdf| Sample { at, pdf })
 }

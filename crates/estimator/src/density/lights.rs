@@ -27,10 +27,10 @@ pub struct TowardLights<'p, P> {
 
 impl<P: Pick> Density<SurfaceArea> for OnLights<'_, P> {
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
+    fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
         let (target, u) = self.picker.pick::<R>(xi.pick());
-        let at = view.facet(target).point([u, xi.v()], target);
-        self.pdf(view, &at).map(|pdf| Sample { at, pdf })
+        let at = from.facet(target).point([u, xi.v()], target);
+        self.pdf(from, &at).map(|pdf| Sample { at, pdf })
     }
 
     #[inline(always)]
@@ -41,21 +41,21 @@ impl<P: Pick> Density<SurfaceArea> for OnLights<'_, P> {
 
 impl<P: Pick> Density<SolidAngle> for TowardLights<'_, P> {
     #[inline(always)]
-    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
-        let (Sample { at: y, pdf }, some) = self.lights.sample(view, xi).parts();
+    fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+        let (Sample { at: y, pdf }, some) = self.lights.sample(from, xi).parts();
         let xy = Segment::to(&y);
         let at = Aim { psi: xy.psi, target: y.target };
         Masked::new(Sample { at, pdf: pdf.per_solid_angle(&xy) }, some & xy.facing())
     }
 
     #[inline(always)]
-    fn pdf<R: Real>(&self, view: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+    fn pdf<R: Real>(&self, from: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
         let aimed = !R::same(aim.target, R::Word::splat(ANYWHERE));
         let target = R::select_word(aimed, aim.target, R::Word::splat(0));
-        let y = view.facet(target).point_along(aim.psi, target);
+        let y = from.facet(target).point_along(aim.psi, target);
         let xy = Segment::to(&y);
-        let (pdf, some) = self.lights.pdf(view, &y).parts();
-        let drawn = some & aimed & xy.facing() & view.meets(target, aim.psi);
+        let (pdf, some) = self.lights.pdf(from, &y).parts();
+        let drawn = some & aimed & xy.facing() & from.meets(target, aim.psi);
         Masked::new(pdf.per_solid_angle(&xy), drawn)
     }
 }

@@ -16,8 +16,8 @@ use crate::xi::Xi;
 /// A probability density over a measured domain, and a way to draw from it: a pure function of ξ.
 pub trait Density<M: Measure> {
     /// Draws a point. No sample is a sample worth zero, and the zero counts.
-    fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<M, R>, R>;
+    fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<M, R>, R>;
 
     /// The density at a point; none where no point is ever drawn.
-    fn pdf<R: Real>(&self, view: &Vantage<R>, at: &M::Point<R>) -> Masked<Pdf<M, R>, R>;
+    fn pdf<R: Real>(&self, from: &Vantage<R>, at: &M::Point<R>) -> Masked<Pdf<M, R>, R>;
 }

@@ -24,9 +24,9 @@ impl Formulation for Area {
 
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) G(x, y) V(x, y)
     #[inline(always)]
-    fn integrand<R: Real>(view: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
+    fn integrand<R: Real>(from: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
-        let v = view.visible(y, xy.facing());
+        let v = from.visible(y, xy.facing());
         Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r() * xy.g())
     }
 

@@ -22,8 +22,8 @@ impl Formulation for Hemisphere {
 
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x
     #[inline(always)]
-    fn integrand<R: Real>(view: &Vantage<R>, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
-        let y = aim.vp(view);
+    fn integrand<R: Real>(from: &Vantage<R>, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
+        let y = aim.vp(from);
         let cos_x = aim.psi.cos_theta();
         Integrand::new(query.l_e(y) * query.f_r() * cos_x)
     }

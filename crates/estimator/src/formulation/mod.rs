@@ -22,7 +22,7 @@ pub trait Formulation {
 
     /// The integrand at a point of the domain.
     fn integrand<R: Real>(
-        view: &Vantage<R>,
+        from: &Vantage<R>,
         query: &Query,
         at: &<Self::Measure as Measure>::Point<R>,
     ) -> Integrand<Self::Measure, R>;

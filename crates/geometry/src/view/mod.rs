@@ -49,20 +49,25 @@ pub struct View<'g> {
     geometry: &'g Geometry,
     frame: Frame,
     sights: Option<Vec<Sight>>,
+    /// Where targets lie that are too many for sights, if that is worth working out once for all.
+    facets: Vec<Wide>,
 }
 
 impl<'g> View<'g> {
     /// The view from the origin of `frame`.
     pub fn new(geometry: &'g Geometry, frame: Frame, effort: Effort) -> Self {
         let look = |target| Some(Sight::new(geometry, &frame, target, effort));
-        Self { geometry, frame, sights: sights(geometry, look) }
+        let sights = sights(geometry, look);
+        let many = if sights.is_none() && effort == Effort::Gather { geometry.targets().len() as u32 } else { 0 };
+        let facets = (0..many).map(|target| Facet::wide(geometry, &frame, target)).collect();
+        Self { geometry, frame, sights, facets }
     }
 
     /// The view from every point of a footprint around the origin of `frame`: a convex polygon in the plane z = 0 of the
     /// frame, in metres. None where there are too many targets, or its points lie on both sides of one that emits to both.
     pub fn over(geometry: &'g Geometry, frame: Frame, footprint: &[DVec3]) -> Option<Self> {
         let look = |target| Sight::over(geometry, &frame, footprint, target);
-        Some(Self { geometry, frame, sights: Some(sights(geometry, look)?) })
+        Some(Self { geometry, frame, sights: Some(sights(geometry, look)?), facets: Vec::new() })
     }
 
     /// All samples look from x.
@@ -108,9 +113,10 @@ impl<'g> View<'g> {
     }
 
     fn wide(&self, target: u32) -> Wide {
-        match &self.sights {
-            Some(sights) => *sights[target as usize].facet(),
-            None => Facet::wide(self.geometry, &self.frame, target),
+        match (&self.sights, self.facets.get(target as usize)) {
+            (Some(sights), _) => *sights[target as usize].facet(),
+            (None, Some(facet)) => *facet,
+            (None, None) => Facet::wide(self.geometry, &self.frame, target),
         }
     }
 }

@@ -35,30 +35,43 @@ impl Moments {
             return Self::default();
         }
         let (whole, rest) = values.split_at(values.len() - values.len() % EIGHT);
-        let padded = |padding: f64| {
-            let mut last = [padding; EIGHT];
-            last[..rest.len()].copy_from_slice(rest);
-            W::load(&last)
-        };
+        let n = values.len() as f64;
         let mut total = W::splat(0.0);
         for k in (0..whole.len()).step_by(EIGHT) {
             total = total + W::load(&whole[k..]);
         }
-        let n = values.len() as f64;
-        let mean = (total + padded(0.0)).sum() / n;
+        let mean = (total + padded(rest)).sum() / n;
         let (mut m2, mut m3, mut m4) = (W::splat(0.0), W::splat(0.0), W::splat(0.0));
-        for k in (0..=whole.len()).step_by(EIGHT) {
-            let d = if k < whole.len() { W::load(&whole[k..]) } else { padded(mean) } - W::splat(mean);
+        for k in (0..whole.len()).step_by(EIGHT) {
+            let d = W::load(&whole[k..]) - W::splat(mean);
             let d2 = d * d;
-            (m2, m3, m4) = (m2 + d2, m3 + d2 * d, m4 + d2 * d2);
+            m2 = m2 + d2;
+            m3 = m3 + d2 * d;
+            m4 = m4 + d2 * d2;
         }
-        Self { n, mean, m2: m2.sum(), m3: m3.sum(), m4: m4.sum() }
+        let mut moments = Self { n, mean, m2: m2.sum(), m3: m3.sum(), m4: m4.sum() };
+        for d in rest.iter().map(|value| value - mean) {
+            moments.m2 += d * d;
+            moments.m3 += d * d * d;
+            moments.m4 += (d * d) * (d * d);
+        }
+        moments
     }
 
     /// Σ(w − mean)²/(n − 1): the sample variance; `None` for fewer than two values.
     pub fn variance(&self) -> Option<f64> {
         (self.n >= 2.0).then(|| self.m2 / (self.n - 1.0))
     }
+}
+
+/// Fewer than eight values, and zeros to make up eight.
+#[inline(always)]
+fn padded<W: Wide>(values: &[f64]) -> W {
+    let mut all = [0.0; EIGHT];
+    for k in 0..values.len() {
+        all[k] = values[k];
+    }
+    W::load(&all)
 }
 
 /// The moments of two sets together (Pébay 2008, "Formulas for robust, one-pass parallel computation of covariances and

@@ -10,6 +10,7 @@ use super::polygon::Polygon;
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
+use crate::mesh::Triangle;
 use crate::tracer::Region;
 
 /// The pyramid from x over the part of a flat polygon above x's horizon, up to the polygon's plane.
@@ -42,20 +43,10 @@ impl Pyramid {
         frame: &Frame,
         target: u32,
         most: usize,
-        mut visit: impl FnMut([DVec3; 3]) -> ControlFlow<()>,
+        visit: impl FnMut([DVec3; 3]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let (mut candidates, mut flow) = (0, ControlFlow::Continue(()));
-        geometry.within(&self.region(frame), |triangle| {
-            candidates += 1;
-            let blocker = geometry.mesh().triangle(triangle);
-            if candidates > most {
-                flow = ControlFlow::Break(());
-            } else if geometry.may_block(triangle, target) && !blocking::plane_holds(&blocker, frame.x()) {
-                flow = visit(blocker.vertices().map(|v| frame.localize(v)));
-            }
-            flow
-        });
-        flow
+        let held = |blocker: &Triangle| blocking::plane_holds(blocker, frame.x());
+        visit_blockers(geometry, frame, &self.region(frame), target, most, held, visit)
     }
 
     /// Whether a triangle meets the pyramid, up to triangles that pass it by a corner.
@@ -69,13 +60,15 @@ impl Pyramid {
         self.planes(corners).all(|inward| self.visible().iter().any(|v| inward.dot(*v) > 0.0))
     }
 
-    /// The inward normals of the planes through x that bound those directions.
-    ///
-    /// Along ω the triangle's plane n·y = s lies before the target's m·y = d where s (m·ω) < d (n·ω), that is on one side
-    /// of the plane through x with normal d n − s m: needed only for a triangle that crosses the target's plane.
+    /// The inward normals of the planes through x that bound those directions: that of the line where the triangle meets
+    /// the target's plane is needed only for a triangle that crosses it.
     fn planes(&self, corners: &[DVec3; 3]) -> impl Iterator<Item = DVec3> {
         let crosses = corners.iter().any(|&c| self.depth(c) > self.distance);
-        edge_planes(corners).chain(crosses.then(|| in_front(*corners, self.toward, self.distance)))
+        let before = || {
+            let plane = Plane::of(*corners);
+            plane.before(self.toward, self.distance).0 * 1.0_f64.copysign(plane.s)
+        };
+        edge_planes(corners).chain(crosses.then(before))
     }
 
     fn depth(&self, point: DVec3) -> f64 {
@@ -90,9 +83,49 @@ impl Pyramid {
     }
 }
 
-fn in_front([a, b, c]: [DVec3; 3], m: DVec3, d: f64) -> DVec3 {
-    let n = (b - a).cross(c - a).normalize_or_zero();
-    let s = n.dot(a);
-    let (n, s) = if s < 0.0 { (-n, -s) } else { (n, s) };
-    d * n - s * m
+/// Visits, in the frame of x, the triangles whose boxes touch a region and that may block a target, but for those that
+/// hold x. Breaks off after `most` candidates, or when `visit` says so.
+pub(crate) fn visit_blockers(
+    geometry: &Geometry,
+    frame: &Frame,
+    region: &Region,
+    target: u32,
+    most: usize,
+    held: impl Fn(&Triangle) -> bool,
+    mut visit: impl FnMut([DVec3; 3]) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let (mut candidates, mut flow) = (0, ControlFlow::Continue(()));
+    geometry.within(region, |triangle| {
+        candidates += 1;
+        let blocker = geometry.mesh().triangle(triangle);
+        if candidates > most {
+            flow = ControlFlow::Break(());
+        } else if geometry.may_block(triangle, target) && !held(&blocker) {
+            flow = visit(blocker.vertices().map(|v| frame.localize(v)));
+        }
+        flow
+    });
+    flow
+}
+
+/// The plane n·y = s of a triangle in the frame of x, n of length one.
+pub(crate) struct Plane {
+    pub(crate) n: DVec3,
+    pub(crate) s: f64,
+}
+
+impl Plane {
+    pub(crate) fn of([a, b, c]: [DVec3; 3]) -> Self {
+        let n = (b - a).cross(c - a).normalize_or_zero();
+        Self { n, s: n.dot(a) }
+    }
+
+    /// The line in which it meets another plane m·y = d, as p × e and e for a point p of it and its direction e.
+    ///
+    /// Along ω from x the one plane lies before the other where s (m·ω) < d (n·ω), for s, d > 0: on the positive side of
+    /// p × e = d n − s m, where e = n × m.
+    pub(crate) fn before(&self, m: DVec3, d: f64) -> (DVec3, DVec3) {
+        let Self { n, s } = *self;
+        (d * n - s * m, n.cross(m))
+    }
 }

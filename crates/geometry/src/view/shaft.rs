@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::cone::{Cone, Side};
 use super::facet::Wide;
 use super::polygon::{Polygon, clipped};
+use super::pyramid::{Plane, visit_blockers};
 use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
@@ -43,20 +44,9 @@ impl<'f> Shaft<'f> {
         frame: &Frame,
         target: u32,
         most: usize,
-        mut visit: impl FnMut([DVec3; 3]) -> ControlFlow<()>,
+        visit: impl FnMut([DVec3; 3]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let (mut candidates, mut flow) = (0, ControlFlow::Continue(()));
-        geometry.within(&self.region(frame), |triangle| {
-            candidates += 1;
-            let blocker = geometry.mesh().triangle(triangle);
-            if candidates > most {
-                flow = ControlFlow::Break(());
-            } else if geometry.may_block(triangle, target) && !self.held_by(&blocker, frame) {
-                flow = visit(blocker.vertices().map(|v| frame.localize(v)));
-            }
-            flow
-        });
-        flow
+        visit_blockers(geometry, frame, &self.region(frame), target, most, |t| self.held_by(t, frame), visit)
     }
 
     /// Whether the footprint lies in a triangle's plane, so that the triangle blocks nothing that it sees.
@@ -66,9 +56,7 @@ impl<'f> Shaft<'f> {
 
     /// The cone of lines from the footprint on which a triangle stands before the target, if it meets the shaft at all.
     ///
-    /// From o along ω the triangle's plane n·y = s lies before the target's m·y = d on one side of the line in which the
-    /// two planes meet, which runs along n × m and has the normal d n − s m: needed only for a triangle that crosses the
-    /// target's plane.
+    /// Its sides are its edges and, for a triangle that crosses the target's plane, the line where it does.
     pub(crate) fn cone(&self, corners: [DVec3; 3]) -> Option<Cone> {
         let (m, d) = (self.facet.toward(), self.facet.plane_distance());
         let below_horizon = corners.iter().all(|c| c.z <= 0.0);
@@ -78,20 +66,18 @@ impl<'f> Shaft<'f> {
             return None;
         }
         let [a, b, c] = corners;
-        let n = (b - a).cross(c - a).normalize_or_zero();
-        let s = n.dot(a);
-        let near = |v: &DVec3| s - n.dot(*v);
+        let plane = Plane::of(corners);
+        let near = |v: &DVec3| plane.s - plane.n.dot(*v);
         let straddled = self.footprint.iter().any(|v| near(v) < 0.0) && self.footprint.iter().any(|v| near(v) > 0.0);
         let inward = if straddled || self.footprint.iter().any(|v| near(v) > 0.0) { 1.0 } else { -1.0 };
         let crosses = corners.iter().any(|c| m.dot(*c) > d);
         let edges = [(a.cross(b), b - a), (b.cross(c), c - b), (c.cross(a), a - c)];
-        let lines: Vec<(DVec3, DVec3)> =
-            edges.into_iter().chain(crosses.then(|| (d * n - s * m, n.cross(m)))).collect();
+        let lines: Vec<(DVec3, DVec3)> = edges.into_iter().chain(crosses.then(|| plane.before(m, d))).collect();
         if !straddled && lines.iter().any(|&line| self.misses(line, inward)) {
             return None;
         }
         let cone = Cone::new(lines.into_iter().map(|(normal, e)| Side::new(inward * normal, inward * e)));
-        Some(if straddled { cone.straddled(n, s) } else { cone })
+        Some(if straddled { cone.straddled(plane.n, plane.s) } else { cone })
     }
 
     /// Whether every line from the footprint to the target passes outside of a side.

@@ -72,9 +72,10 @@ impl Packet {
     /// - An edge function, of two products of coordinates below 2L, is wrong by at most 8Lδ + 2δ² + 16εL². That is below
     ///   m = d(L + d) with d = 8ε(8A + 16L + 4|o|). `f32::MIN_POSITIVE` stands for products that underflow.
     /// - Σ u·z, the sum of the edge functions times depths, differs from t'·Σ u by at most 3m(A + 2L) + (|Σ u| + 8m) d,
-    ///   whatever sign a Σ u below 3m has.
+    ///   whatever sign a Σ u below 3m has. A triangle in a square of side 2L has |Σ u| <= 4L² + 3m, and m >= dL, so that
+    ///   m(6A + 12L + 12d) is more.
     #[inline(always)]
-    pub(super) fn candidates<S: Simd>(&self, simd: S, probe: &Probe, reach: f32x8<S>) -> u32 {
+    pub(super) fn candidates<S: Simd>(&self, simd: S, probe: &Probe, reach: f32) -> u32 {
         let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) =
             (self.sheared(simd, probe, 0), self.sheared(simd, probe, 1), self.sheared(simd, probe, 2));
         let u = cx.mul_sub(by, cy * bx);
@@ -84,17 +85,15 @@ impl Packet {
         let depth = az.abs();
         let d = depth.mul_add(64.0 * EPSILON, f32x8::splat(simd, 128.0 * EPSILON * self.extent + probe.blur));
         let m = d.mul_add(d + self.extent, f32x8::splat(simd, f32::MIN_POSITIVE));
+        let slack = depth.mul_add(6.0, d.mul_add(12.0, f32x8::splat(simd, 12.0 * self.extent))) * m;
         let inside = u.min(v).min(w).simd_ge(-m) | u.max(v).max(w).simd_le(m);
 
         let sum = u + v + w;
         let moment = u.mul_add(az, v.mul_add(bz, w * cz));
         let flip = (sum.to_bits() ^ probe.backward) & SIGN;
         let along = f32x8::from_bits(moment.to_bits() ^ flip);
-        let sum = sum.abs();
-        let far = depth.mul_add(4.0, f32x8::splat(simd, 8.0 * self.extent));
-        let slack = far.mul_add(m, m.mul_add(8.0, sum) * d);
         let behind = (along + slack).simd_lt(0.0);
-        let beyond = (along - slack).simd_gt(sum * probe.depth * reach);
+        let beyond = (along - slack).simd_gt(sum.abs() * (probe.depth * reach));
         (inside & !(behind | beyond)).to_bitmask() as u32
     }
 

@@ -35,12 +35,15 @@ pub(super) const SIGN: u32 = 1 << 31;
 /// **Boxes.** The ray enters the slab between two planes at (b − o)/d. The lanes compute b·r − o·r with r = 1/d: r is
 /// wrong by 3ε relative (ε = 2⁻²⁴), o, the products and the difference by ε each, so the distance is wrong by at most
 /// 4ε|T| + 4ε|o·r|, fused or not. The faces are moved apart by w = 8ε|o| + 2⁻⁴⁶ R, and the far distance is stretched by
-/// 1 + 16ε: no box is missed that the ray meets.
+/// S = 1 + 16ε: no box is missed that the ray meets. It is b·(r·S) − (o·r − w·|r|)·S, whose factors are wrong by ε each,
+/// and it by ε|T| + 2ε|o·r| more.
 #[derive(Clone, Copy)]
 pub(super) struct Probe {
     /// 1/d, for each axis.
     pub(super) rate: [f32; 3],
-    /// A face b is entered at b·rate + enter, and left at b·rate + leave.
+    /// 1/d, stretched.
+    pub(super) stretched: [f32; 3],
+    /// A face b is entered at b·rate + enter, and left at b·stretched + leave.
     pub(super) enter: [f32; 3],
     pub(super) leave: [f32; 3],
     /// The rows of a node that hold the faces where the ray enters, and those where it leaves.
@@ -70,6 +73,7 @@ impl Probe {
     /// The probe of no ray.
     pub(super) const NONE: Self = Self {
         rate: [0.0; 3],
+        stretched: [0.0; 3],
         enter: [0.0; 3],
         leave: [0.0; 3],
         near: [0; 3],
@@ -98,8 +102,9 @@ impl Probe {
         let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
         Self {
             rate: rate.to_array(),
+            stretched: (rate * STRETCH).to_array(),
             enter: (-shift - slack).to_array(),
-            leave: (slack - shift).to_array(),
+            leave: ((slack - shift) * STRETCH).to_array(),
             near: [row(0, 0), row(1, 0), row(2, 0)],
             far: [row(0, 1), row(1, 1), row(2, 1)],
             place: origin.to_array(),

@@ -1,6 +1,6 @@
 //! Walking the tree along a ray.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, prelude::*};
 
 use super::Hierarchy;
 use super::node::{Child, Node, WIDTH};
@@ -25,7 +25,7 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -
             None
         } else {
             let node = &tree.nodes[child.index()];
-            let (entered, distances) = node.enter(simd, &probe, f32x8::splat(simd, reach));
+            let (entered, distances) = node.enter(simd, &probe, reach);
             nearest(node, entered, distances.as_array(), &mut stack)
         };
         next = next.or_else(|| within_reach(&mut stack, reach));
@@ -42,10 +42,10 @@ pub(super) fn closest_in<S: Simd>(
     (ray, shear, probe): (&Ray, &Shear, &Probe),
     (best, reach): (&mut Hit, &mut f32),
 ) {
-    let (packet, triangles) = (&tree.packets[child.index()], &tree.triangles[child.index()]);
-    for lane in lanes(packet.candidates(simd, probe, f32x8::splat(simd, *reach))) {
+    let packet = &tree.packets[child.index()];
+    for lane in lanes(packet.candidates(simd, probe, *reach)) {
         if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
-            let hit = Hit { t, triangle: triangles[lane] };
+            let hit = Hit { t, triangle: tree.triangles[child.index()][lane] };
             *best = if hit.before(best) { hit } else { *best };
             *reach = reach_of(best.t);
         }
@@ -64,7 +64,7 @@ pub(super) fn any<S: Simd, T: Stack>(
 ) -> bool {
     let shear = Shear::new(ray);
     let probe = Probe::new(ray, &shear, tree.magnitude);
-    let reach = f32x8::splat(simd, reach_of(before));
+    let reach = reach_of(before);
     let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
@@ -115,18 +115,19 @@ fn largest(node: &Node, entered: u32, stack: &mut impl Stack) -> Option<Child> {
 pub(super) fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl Stack) -> Option<Child> {
     let child = |slot: usize| entry(distances[slot], node.children[slot]);
     let mut slots = lanes(entered);
-    let mut first = child(slots.next()?);
-    if let Some(other) = slots.next().map(child) {
-        let mut second = first.max(other);
-        first = first.min(other);
-        for other in slots.map(child) {
-            stack.push(second.max(other));
-            let nearer = second.min(other);
-            second = first.max(nearer);
-            first = first.min(nearer);
-        }
-        stack.push(second);
+    let only = slots.next()?;
+    let Some(other) = slots.next().map(child) else {
+        return Some(node.children[only]);
+    };
+    let only = child(only);
+    let (mut first, mut second) = (only.min(other), only.max(other));
+    for other in slots.map(child) {
+        stack.push(second.max(other));
+        let nearer = second.min(other);
+        second = first.max(nearer);
+        first = first.min(nearer);
     }
+    stack.push(second);
     Some(parts(first).1)
 }
 

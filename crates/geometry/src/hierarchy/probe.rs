@@ -27,6 +27,9 @@ const GRAZE: f32 = 1.0 / (1_u64 << 46) as f32;
 /// By how much distances are stretched for their own rounding.
 pub(super) const STRETCH: f32 = 1.0 + 16.0 * EPSILON;
 
+/// By how much distances are shortened for their own rounding and that of the products they are compared with.
+const SHORTENED: f32 = 1.0 - 64.0 * EPSILON;
+
 /// The sign bit of a binary32 number.
 pub(super) const SIGN: u32 = 1 << 31;
 
@@ -124,4 +127,10 @@ impl Probe {
 #[inline(always)]
 pub(super) fn reach_of(t: f64) -> f32 {
     t as f32 * STRETCH + f32::MIN_POSITIVE
+}
+
+/// A distance in binary32, rounded down, with room for the rounding of what it is compared with.
+#[inline(always)]
+pub(super) fn short_of(t: f64) -> f32 {
+    t as f32 * SHORTENED - f32::MIN_POSITIVE
 }

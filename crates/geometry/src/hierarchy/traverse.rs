@@ -3,8 +3,9 @@
 use fearless_simd::{Simd, prelude::*};
 
 use super::Hierarchy;
+use super::crossings::Crossings;
 use super::node::{Child, Node, WIDTH};
-use super::probe::{Probe, reach_of};
+use super::probe::{Probe, reach_of, short_of};
 use super::stack::{Stack, entry, parts};
 use crate::ray::{Hit, Ray, Shear};
 
@@ -43,7 +44,7 @@ pub(super) fn closest_in<S: Simd>(
     (best, reach): (&mut Hit, &mut f32),
 ) {
     let packet = &tree.packets[child.index()];
-    for lane in lanes(packet.candidates(simd, probe, *reach)) {
+    for lane in lanes(Crossings::new(simd, packet, probe).possible(probe, *reach)) {
         if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
             let hit = Hit { t, triangle: tree.triangles[child.index()][lane] };
             *best = if hit.before(best) { hit } else { *best };
@@ -69,12 +70,8 @@ pub(super) fn any<S: Simd, T: Stack>(
     let mut next = tree.root;
     while let Some(child) = next {
         next = if child.is_packet() {
-            let packet = &tree.packets[child.index()];
-            for lane in lanes(packet.candidates(simd, &probe, reach)) {
-                let met = packet.meet(lane, ray, &shear, probe.magnitude).is_some_and(|t| t < before);
-                if met && blocks(tree.triangles[child.index()][lane]) {
-                    return true;
-                }
+            if any_in(simd, tree, child, (ray, &shear, &probe), (before, reach), blocks) {
+                return true;
             }
             None
         } else {
@@ -84,6 +81,28 @@ pub(super) fn any<S: Simd, T: Stack>(
         next = next.or_else(|| stack.pop().map(|entry| parts(entry).1));
     }
     false
+}
+
+/// Whether the ray meets a triangle of a packet before its end for which `blocks` holds.
+#[inline(always)]
+fn any_in<S: Simd>(
+    simd: S,
+    tree: &Hierarchy,
+    child: Child,
+    (ray, shear, probe): (&Ray, &Shear, &Probe),
+    (before, reach): (f64, f32),
+    blocks: &impl Fn(u32) -> bool,
+) -> bool {
+    let packet = &tree.packets[child.index()];
+    let crossings = Crossings::new(simd, packet, probe);
+    let possible = crossings.possible(probe, reach);
+    if possible == 0 {
+        return false;
+    }
+    let certain = crossings.certain(packet, probe, short_of(before));
+    let blocking = |lane: usize| blocks(tree.triangles[child.index()][lane]);
+    let met = |lane: usize| packet.meet(lane, ray, shear, probe.magnitude).is_some_and(|t| t < before);
+    lanes(certain).any(blocking) || lanes(possible & !certain).any(|lane| met(lane) && blocking(lane))
 }
 
 /// The lanes of a mask, lowest first.

@@ -123,7 +123,7 @@ impl Shear {
         let u = c.x * b.y - c.y * b.x;
         let v = a.x * c.y - a.y * c.x;
         let w = b.x * a.y - b.y * a.x;
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+        if least(least(u, v), w) < 0.0 && most(most(u, v), w) > 0.0 {
             return None;
         }
         let det = u + v + w;
@@ -143,4 +143,16 @@ impl Shear {
         let depth = along(2);
         DVec3::new(along(0) - self.slope[0] * depth, along(1) - self.slope[1] * depth, self.scale * depth)
     }
+}
+
+/// The lesser of two numbers, in one instruction.
+#[inline(always)]
+fn least(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// The greater of two numbers, in one instruction.
+#[inline(always)]
+fn most(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
 }

@@ -9,6 +9,7 @@
 mod binary;
 mod bundle;
 mod collapse;
+mod crossings;
 mod node;
 mod packet;
 mod probe;

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::probe::{Probe, STRETCH};
+use super::probe::Probe;
 
 /// Boxes in a node, and triangles in a packet.
 pub(super) const WIDTH: usize = 8;
@@ -54,11 +54,11 @@ impl Node {
     ///
     /// The slab test (Kay and Kajiya 1986), with the faces moved apart by what rounding can do: see [`Probe`].
     #[inline(always)]
-    pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32x8<S>) -> (u32, f32x8<S>) {
+    pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32) -> (u32, f32x8<S>) {
         let near = |k: usize| self.met(simd, probe.near[k], probe.rate[k], probe.enter[k]);
-        let far = |k: usize| self.met(simd, probe.far[k], probe.rate[k], probe.leave[k]);
-        let entry = near(0).max(near(1)).max(near(2)).max(0.0);
-        let exit = (far(0).min(far(1)).min(far(2)) * STRETCH).min(reach);
+        let far = |k: usize| self.met(simd, probe.far[k], probe.stretched[k], probe.leave[k]);
+        let entry = near(0).max(near(1)).max(near(2).max(0.0));
+        let exit = far(0).min(far(1)).min(far(2).min(f32x8::splat(simd, reach)));
         (entry.simd_le(exit).to_bitmask() as u32, entry)
     }
 

@@ -27,6 +27,9 @@ const GRAZE: f32 = 1.0 / (1_u64 << 46) as f32;
 /// By how much distances are stretched for their own rounding.
 pub(super) const STRETCH: f32 = 1.0 + 16.0 * EPSILON;
 
+/// By how much distances are shortened for their own rounding and that of the products they are compared with.
+const SHORTENED: f32 = 1.0 - 64.0 * EPSILON;
+
 /// The sign bit of a binary32 number.
 pub(super) const SIGN: u32 = 1 << 31;
 
@@ -35,12 +38,15 @@ pub(super) const SIGN: u32 = 1 << 31;
 /// **Boxes.** The ray enters the slab between two planes at (b − o)/d. The lanes compute b·r − o·r with r = 1/d: r is
 /// wrong by 3ε relative (ε = 2⁻²⁴), o, the products and the difference by ε each, so the distance is wrong by at most
 /// 4ε|T| + 4ε|o·r|, fused or not. The faces are moved apart by w = 8ε|o| + 2⁻⁴⁶ R, and the far distance is stretched by
-/// 1 + 16ε: no box is missed that the ray meets.
+/// S = 1 + 16ε: no box is missed that the ray meets. It is b·(r·S) − (o·r − w·|r|)·S, whose factors are wrong by ε each,
+/// and it by ε|T| + 2ε|o·r| more.
 #[derive(Clone, Copy)]
 pub(super) struct Probe {
     /// 1/d, for each axis.
     pub(super) rate: [f32; 3],
-    /// A face b is entered at b·rate + enter, and left at b·rate + leave.
+    /// 1/d, stretched.
+    pub(super) stretched: [f32; 3],
+    /// A face b is entered at b·rate + enter, and left at b·stretched + leave.
     pub(super) enter: [f32; 3],
     pub(super) leave: [f32; 3],
     /// The rows of a node that hold the faces where the ray enters, and those where it leaves.
@@ -70,6 +76,7 @@ impl Probe {
     /// The probe of no ray.
     pub(super) const NONE: Self = Self {
         rate: [0.0; 3],
+        stretched: [0.0; 3],
         enter: [0.0; 3],
         leave: [0.0; 3],
         near: [0; 3],
@@ -98,8 +105,9 @@ impl Probe {
         let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
         Self {
             rate: rate.to_array(),
+            stretched: (rate * STRETCH).to_array(),
             enter: (-shift - slack).to_array(),
-            leave: (slack - shift).to_array(),
+            leave: ((slack - shift) * STRETCH).to_array(),
             near: [row(0, 0), row(1, 0), row(2, 0)],
             far: [row(0, 1), row(1, 1), row(2, 1)],
             place: origin.to_array(),
@@ -119,4 +127,10 @@ impl Probe {
 #[inline(always)]
 pub(super) fn reach_of(t: f64) -> f32 {
     t as f32 * STRETCH + f32::MIN_POSITIVE
+}
+
+/// A distance in binary32, rounded down, with room for the rounding of what it is compared with.
+#[inline(always)]
+pub(super) fn short_of(t: f64) -> f32 {
+    t as f32 * SHORTENED - f32::MIN_POSITIVE
 }

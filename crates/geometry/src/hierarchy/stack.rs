@@ -1,5 +1,7 @@
 //! What is yet to be visited.
 
+use std::mem::MaybeUninit;
+
 use super::node::Child;
 
 /// Nodes and packets yet to be visited, each with a lower bound of its distance. An entry is `distance bits << 32 | child`,
@@ -15,28 +17,33 @@ pub(super) trait Stack {
 
 /// A stack for trees that never need more than `ROOM` entries, a power of two: it does not grow, so that nothing is called
 /// from the loops that use it.
+///
+/// Its first min(`len`, `ROOM`) entries are written, the others never: clearing them takes every walk time.
 pub(super) struct Fixed<const ROOM: usize> {
-    entries: [u64; ROOM],
+    entries: [MaybeUninit<u64>; ROOM],
     len: usize,
 }
 
 impl<const ROOM: usize> Stack for Fixed<ROOM> {
     #[inline(always)]
     fn new() -> Self {
-        Self { entries: [0; ROOM], len: 0 }
+        Self { entries: [MaybeUninit::uninit(); ROOM], len: 0 }
     }
 
     #[inline(always)]
     fn push(&mut self, entry: u64) {
         debug_assert!(self.len < ROOM, "the tree is too deep for this stack");
-        self.entries[self.len % ROOM] = entry;
+        self.entries[self.len % ROOM].write(entry);
         self.len += 1;
     }
 
     #[inline(always)]
+    #[allow(unsafe_code, reason = "entries are written before they are read, which the compiler does not see")]
     fn pop(&mut self) -> Option<u64> {
         self.len = self.len.checked_sub(1)?;
-        Some(self.entries[self.len % ROOM])
+        // SAFETY: `len` is 0 at first and grows by 1 with each entry written at `len % ROOM`, so that all places
+        // k % ROOM with k < `len` before the subtraction are written, the one of k = `len` after it among them.
+        Some(unsafe { self.entries[self.len % ROOM].assume_init() })
     }
 }
 

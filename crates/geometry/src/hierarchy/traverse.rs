@@ -1,10 +1,11 @@
 //! Walking the tree along a ray.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, prelude::*};
 
 use super::Hierarchy;
+use super::crossings::Crossings;
 use super::node::{Child, Node, WIDTH};
-use super::probe::{Probe, reach_of};
+use super::probe::{Probe, reach_of, short_of};
 use super::stack::{Stack, entry, parts};
 use crate::ray::{Hit, Ray, Shear};
 
@@ -25,7 +26,7 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -
             None
         } else {
             let node = &tree.nodes[child.index()];
-            let (entered, distances) = node.enter(simd, &probe, f32x8::splat(simd, reach));
+            let (entered, distances) = node.enter(simd, &probe, reach);
             nearest(node, entered, distances.as_array(), &mut stack)
         };
         next = next.or_else(|| within_reach(&mut stack, reach));
@@ -42,10 +43,10 @@ pub(super) fn closest_in<S: Simd>(
     (ray, shear, probe): (&Ray, &Shear, &Probe),
     (best, reach): (&mut Hit, &mut f32),
 ) {
-    let (packet, triangles) = (&tree.packets[child.index()], &tree.triangles[child.index()]);
-    for lane in lanes(packet.candidates(simd, probe, f32x8::splat(simd, *reach))) {
+    let packet = &tree.packets[child.index()];
+    for lane in lanes(Crossings::new(simd, packet, probe).possible(probe, *reach)) {
         if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
-            let hit = Hit { t, triangle: triangles[lane] };
+            let hit = Hit { t, triangle: tree.triangles[child.index()][lane] };
             *best = if hit.before(best) { hit } else { *best };
             *reach = reach_of(best.t);
         }
@@ -64,17 +65,13 @@ pub(super) fn any<S: Simd, T: Stack>(
 ) -> bool {
     let shear = Shear::new(ray);
     let probe = Probe::new(ray, &shear, tree.magnitude);
-    let reach = f32x8::splat(simd, reach_of(before));
+    let reach = reach_of(before);
     let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
         next = if child.is_packet() {
-            let packet = &tree.packets[child.index()];
-            for lane in lanes(packet.candidates(simd, &probe, reach)) {
-                let met = packet.meet(lane, ray, &shear, probe.magnitude).is_some_and(|t| t < before);
-                if met && blocks(tree.triangles[child.index()][lane]) {
-                    return true;
-                }
+            if any_in(simd, tree, child, (ray, &shear, &probe), (before, reach), blocks) {
+                return true;
             }
             None
         } else {
@@ -84,6 +81,28 @@ pub(super) fn any<S: Simd, T: Stack>(
         next = next.or_else(|| stack.pop().map(|entry| parts(entry).1));
     }
     false
+}
+
+/// Whether the ray meets a triangle of a packet before its end for which `blocks` holds.
+#[inline(always)]
+fn any_in<S: Simd>(
+    simd: S,
+    tree: &Hierarchy,
+    child: Child,
+    (ray, shear, probe): (&Ray, &Shear, &Probe),
+    (before, reach): (f64, f32),
+    blocks: &impl Fn(u32) -> bool,
+) -> bool {
+    let packet = &tree.packets[child.index()];
+    let crossings = Crossings::new(simd, packet, probe);
+    let possible = crossings.possible(probe, reach);
+    if possible == 0 {
+        return false;
+    }
+    let certain = crossings.certain(packet, probe, short_of(before));
+    let blocking = |lane: usize| blocks(tree.triangles[child.index()][lane]);
+    let met = |lane: usize| packet.meet(lane, ray, shear, probe.magnitude).is_some_and(|t| t < before);
+    lanes(certain).any(blocking) || lanes(possible & !certain).any(|lane| met(lane) && blocking(lane))
 }
 
 /// The lanes of a mask, lowest first.
@@ -115,18 +134,19 @@ fn largest(node: &Node, entered: u32, stack: &mut impl Stack) -> Option<Child> {
 pub(super) fn nearest(node: &Node, entered: u32, distances: &[f32; WIDTH], stack: &mut impl Stack) -> Option<Child> {
     let child = |slot: usize| entry(distances[slot], node.children[slot]);
     let mut slots = lanes(entered);
-    let mut first = child(slots.next()?);
-    if let Some(other) = slots.next().map(child) {
-        let mut second = first.max(other);
-        first = first.min(other);
-        for other in slots.map(child) {
-            stack.push(second.max(other));
-            let nearer = second.min(other);
-            second = first.max(nearer);
-            first = first.min(nearer);
-        }
-        stack.push(second);
+    let only = slots.next()?;
+    let Some(other) = slots.next().map(child) else {
+        return Some(node.children[only]);
+    };
+    let only = child(only);
+    let (mut first, mut second) = (only.min(other), only.max(other));
+    for other in slots.map(child) {
+        stack.push(second.max(other));
+        let nearer = second.min(other);
+        second = first.max(nearer);
+        first = first.min(nearer);
     }
+    stack.push(second);
     Some(parts(first).1)
 }
 

@@ -120,7 +120,7 @@ impl Terrain {
             "meshes": [mesh("ground", 0), mesh("light", 1)],
             "materials": [
                 {"name": "ground", "doubleSided": true, "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1.0], "metallicFactor": 0.0}},
-                {"name": "light", "emissiveFactor": [1.0, 1.0, 1.0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 16.0}}},
+                {"name": "light", "pbrMetallicRoughness": {"metallicFactor": 0.0}, "emissiveFactor": [1.0, 1.0, 1.0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 16.0}}},
             ],
             "accessors": accessors,
             "bufferViews": [

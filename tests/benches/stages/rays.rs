@@ -76,7 +76,7 @@ fn camera(world: &World) -> Vec<Ray> {
 /// The k-th of many directions about a normal, their density cosθ/π: the normal plus a point of the unit sphere, the
 /// points spread along a spiral that turns by the golden angle.
 fn cosine(normal: DVec3, k: u32) -> DVec3 {
-    let height = 1.0 - 2.0 * (f64::from(k) * 0.754_877_666).fract();
+    let height = 1.0 - 2.0 * ((f64::from(k) + 0.5) * 0.754_877_666).fract();
     let (sin, cos) = (f64::from(k) * 2.399_963_23).sin_cos();
     let ring = (1.0 - height * height).sqrt();
     (normal + DVec3::new(ring * cos, height, ring * sin)).normalize()

@@ -1,6 +1,6 @@
 //! What one sample costs at a receiver, of every strategy that can be sampled.
 
-use criterion::{Criterion, Throughput};
+use criterion::{BenchmarkGroup, Criterion, Throughput};
 use twoforms_estimator::density::Density;
 use twoforms_estimator::estimator::{Estimate, Estimator};
 use twoforms_estimator::formulation::Formulation;
@@ -39,27 +39,42 @@ impl Kernel for Secondary {
 pub fn benches(criterion: &mut Criterion<CpuTime>) {
     let stage = worlds::stage(SCENE);
     for case in cases(&stage) {
+        let mut group = group(criterion, &format!("samples/{}", case.place.name));
         for strategy in Strategy::all() {
-            bench(criterion, &case, strategy, "", Instructions::best());
+            bench(&mut group, &strategy.to_string(), &case, strategy, Instructions::best());
         }
+        group.finish();
     }
     let case = stage.case(crate::RECEIVERS[0]);
     for strategy in BY_ALL {
+        let mut group = group(criterion, &format!("instructions/{strategy}"));
         for instructions in Instructions::all() {
-            bench(criterion, &case, strategy, &format!(", {instructions:?}"), instructions);
+            bench(&mut group, &name(instructions), &case, strategy, instructions);
         }
+        group.finish();
     }
 }
 
-fn bench(criterion: &mut Criterion<CpuTime>, case: &Case, strategy: Strategy, note: &str, instructions: Instructions) {
+/// Measurements of N samples each.
+fn group<'c>(criterion: &'c mut Criterion<CpuTime>, name: &str) -> Group<'c> {
+    let mut group = criterion.benchmark_group(name);
+    group.throughput(Throughput::Elements(N.into()));
+    group
+}
+
+type Group<'c> = BenchmarkGroup<'c, CpuTime>;
+
+fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instructions: Instructions) {
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let query = Query::irradiance(&world.lights);
     let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-    let mut group = criterion.benchmark_group(format!("samples/{}", case.place.name));
-    group.throughput(Throughput::Elements(N.into()));
-    group.bench_function(format!("{strategy}{note}"), |bencher| {
-        bencher.iter(|| prepared.run(&view, &query, Secondary(instructions)));
-    });
-    group.finish();
+    group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, Secondary(instructions))));
+}
+
+/// Scalar, or the name of the vector instructions.
+fn name(instructions: Instructions) -> String {
+    let text = format!("{instructions:?}").to_lowercase();
+    let mut words = text.split(|c: char| !c.is_alphanumeric());
+    words.find(|word| !["instructions", "lanes"].contains(word)).unwrap_or_default().to_owned()
 }

@@ -17,8 +17,8 @@ use crate::{SCENE, loading};
 /// A hundred thousand triangles.
 pub const TERRAIN: Terrain = Terrain::of_cells(224);
 
-/// Rays along a side of the image.
-const SIDE: u32 = 64;
+/// Rays through one tile of the image.
+const TILE_RAYS: u32 = 64;
 
 /// Every kind of ray, in a room and over hills.
 pub fn benches(criterion: &mut Criterion<CpuTime>) {
@@ -51,9 +51,9 @@ fn of_world(criterion: &mut Criterion<CpuTime>, name: &str, world: &World) {
     group.finish();
 }
 
-/// All rays at once, in tiles as an image takes them.
+/// A tile of rays at a time, as an image takes them.
 fn together(geometry: &Geometry, rays: &[Ray]) -> usize {
-    let mut hits = [None; SIDE as usize];
+    let mut hits = [None; TILE_RAYS as usize];
     let mut met = 0;
     for rays in rays.chunks(hits.len()) {
         geometry.vp_of(rays, &mut hits[..rays.len()]);
@@ -62,15 +62,15 @@ fn together(geometry: &Geometry, rays: &[Ray]) -> usize {
     met
 }
 
-/// The rays of the scene's camera, in tiles of 8 × 8.
+/// The rays of the scene's camera through tiles of 8 × 8 pixels, which are spread over an image of 512 × 512.
 fn camera(world: &World) -> Vec<Ray> {
     let camera = &world.scene.cameras[0];
     let through = |k: u32| {
-        let (tile, inside) = (k / 64, k % 64);
-        let [x, y] = [tile % (SIDE / 8) * 8 + inside % 8, tile / (SIDE / 8) * 8 + inside / 8];
-        viewpoint::ray(camera, [f64::from(x) + 0.5, f64::from(y) + 0.5], [SIDE; 2])
+        let (tile, inside) = (k / TILE_RAYS, k % TILE_RAYS);
+        let [x, y] = [tile % 8 * 64 + inside % 8, tile / 8 * 64 + inside / 8];
+        viewpoint::ray(camera, [f64::from(x) + 0.5, f64::from(y) + 0.5], [512; 2])
     };
-    (0..SIDE * SIDE).map(through).collect()
+    (0..64 * TILE_RAYS).map(through).collect()
 }
 
 /// The k-th of many directions about a normal, their density cosθ/π: the normal plus a point of the unit sphere, the

@@ -68,7 +68,7 @@ impl Terrain {
 
     /// The vertex that lies nearest to a place of the plane.
     fn nearest(self, [x, z]: [f64; 2]) -> Vec3 {
-        let [x, z] = [x, z].map(|c| ((c / HALF + 1.0) / 2.0 * f64::from(self.cells)).round() as u32);
+        let [x, z] = [x, z].map(|c| ((c + HALF) / (2.0 * HALF) * f64::from(self.cells)).round() as u32);
         self.vertex(x, z)
     }
 

@@ -6,4 +6,5 @@ pub mod domain;
 pub mod samples;
 pub mod scenes;
 pub mod statistics;
+pub mod terrain;
 pub mod worlds;

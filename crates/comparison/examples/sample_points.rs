@@ -3,10 +3,10 @@
 //! `cargo run --release -p twoforms-comparison --example sample_points -- SCENE POINTS.csv STRATEGY N [--repeat K]`
 //! prints one JSON line. POINTS.csv has six numbers a line: position and normal.
 
-use std::error::Error;
-use std::time::Duration;
+mod support;
 
-use cpu_time::ProcessTime;
+use std::error::Error;
+
 use glam::DVec3;
 use twoforms_comparison::world::World;
 use twoforms_estimator::density::Density;
@@ -19,6 +19,8 @@ use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_scene::Scene;
+
+use support::{arguments, seconds, whole};
 
 const USAGE: &str = "usage: sample_points SCENE POINTS.csv STRATEGY N [--repeat K]";
 
@@ -36,28 +38,22 @@ impl Kernel for Samples {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (scene, points, strategy, n, repeat) = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [scene, points, strategy, n] => (scene, points, strategy, n, 1),
-        [scene, points, strategy, n, "--repeat", k] => (scene, points, strategy, n, k.parse()?),
-        _ => return Err(USAGE.into()),
-    };
-    let (strategy, n): (Strategy, u32) = (strategy.parse()?, n.parse()?);
+    let ([scene, points, strategy, n], [repeat]) = arguments(USAGE, ["--repeat"])?;
+    let (strategy, n): (Strategy, u32) = (strategy.parse()?, whole(&n, "N")?);
     let world = World::new(Scene::load(scene.as_ref())?)?;
     let prepared = strategy.prepare(&world.lights)?;
     let frames = frames(&std::fs::read_to_string(points)?)?;
-    let (mut times, mut mean) = (Vec::new(), 0.0);
-    for round in 0..repeat {
-        let start = ProcessTime::now();
+    let mut mean = 0.0;
+    let seconds = seconds(repeat, |round| {
         mean = mean_irradiance(&world, &prepared, &frames, n, round)?;
-        times.push(start.elapsed());
-    }
-    times.sort_unstable();
-    let rate = |time: Duration| frames.len() as f64 * f64::from(n) / time.as_secs_f64() / 1e6;
-    let (median, best) = (rate(times[times.len() / 2]), rate(times[0]));
+        Ok::<_, Box<dyn Error>>(())
+    })?;
+    let rate = |seconds: f64| frames.len() as f64 * f64::from(n) / seconds / 1e6;
     println!(
-        r#"{{"strategy":"{strategy}","points":{},"samples":{n},"million_samples_per_cpu_second":{median:.1},"best":{best:.1},"mean_irradiance":{mean}}}"#,
-        frames.len()
+        r#"{{"strategy":"{strategy}","points":{},"samples":{n},"million_samples_per_cpu_second":{:.1},"best":{:.1},"mean_irradiance":{mean}}}"#,
+        frames.len(),
+        rate(seconds.median),
+        rate(seconds.best),
     );
     Ok(())
 }

@@ -1,0 +1,28 @@
+//! One receiver without chance, as `twoforms exact` works it out.
+
+use criterion::Criterion;
+use twoforms_comparison::exactly;
+use twoforms_estimator::strategy::{Strategy, Weighting};
+use twoforms_tests::worlds;
+
+use crate::clock::CpuTime;
+use crate::{SCENE, cases};
+
+/// The irradiance alone, the variances that have a closed form, and one that needs cubature.
+pub fn benches(criterion: &mut Criterion<CpuTime>) {
+    let stage = worlds::stage(SCENE);
+    let all = Strategy::with_exact_variance();
+    let closed: Vec<Strategy> =
+        all.into_iter().filter(|s| !matches!(s, Strategy::Mis(_) | Strategy::Mixture(_))).collect();
+    let balance = [Strategy::Mis(Weighting::Balance)];
+    let works: [(&str, &[Strategy]); 3] =
+        [("irradiance", &[]), ("and closed variances", &closed), ("and mis/balance", &balance)];
+    let mut group = criterion.benchmark_group("exact");
+    for case in cases(&stage) {
+        for (what, strategies) in works {
+            let id = format!("{what}, {}", case.place.name);
+            group.bench_function(id, |bencher| bencher.iter(|| exactly::at(&stage.world, &case.place, strategies)));
+        }
+    }
+    group.finish();
+}

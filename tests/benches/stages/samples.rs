@@ -1,0 +1,80 @@
+//! What one sample costs at a receiver, of every strategy that can be sampled.
+
+use criterion::{BenchmarkGroup, Criterion, Throughput};
+use twoforms_estimator::density::Density;
+use twoforms_estimator::estimator::{Estimate, Estimator};
+use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::query::Query;
+use twoforms_estimator::sampler::{Sampler, Stream};
+use twoforms_estimator::selection::Selection;
+use twoforms_estimator::strategy::{Draw, Kernel, Strategy};
+use twoforms_estimator::xi::{Draws, Key};
+use twoforms_geometry::lanes::Instructions;
+use twoforms_geometry::view::{Effort, View};
+use twoforms_tests::worlds::{self, Case};
+
+use crate::clock::CpuTime;
+use crate::{SCENE, cases};
+
+/// N: samples of one estimate.
+const N: u32 = 1024;
+
+/// One from each formulation, measured with all instructions that the machine has.
+const BY_ALL: [Strategy; 2] = [Strategy::Area(Draw::Uniform, Selection::Together), Strategy::HemisphereCosine];
+
+/// An estimate of N samples.
+struct Secondary(Instructions);
+
+impl Kernel for Secondary {
+    type Output = Estimate;
+
+    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Estimate {
+        let draws = Draws { key: Key::new([0]), stream: [N, 0] };
+        let stream = Stream { sampler: Sampler::Independent, draws };
+        estimator.secondary_by(self.0, N, stream).expect("finite samples")
+    }
+}
+
+/// Every strategy at each receiver; some by other instructions too.
+pub fn benches(criterion: &mut Criterion<CpuTime>) {
+    let stage = worlds::stage(SCENE);
+    for case in cases(&stage) {
+        let mut group = group(criterion, &format!("samples/{}", case.place.name));
+        for strategy in Strategy::all() {
+            bench(&mut group, &strategy.to_string(), &case, strategy, Instructions::best());
+        }
+        group.finish();
+    }
+    let case = stage.case(crate::RECEIVERS[0]);
+    for strategy in BY_ALL {
+        let mut group = group(criterion, &format!("instructions/{strategy}"));
+        for instructions in Instructions::all() {
+            bench(&mut group, &name(instructions), &case, strategy, instructions);
+        }
+        group.finish();
+    }
+}
+
+/// Measurements of N samples each.
+fn group<'c>(criterion: &'c mut Criterion<CpuTime>, name: &str) -> Group<'c> {
+    let mut group = criterion.benchmark_group(name);
+    group.throughput(Throughput::Elements(N.into()));
+    group
+}
+
+type Group<'c> = BenchmarkGroup<'c, CpuTime>;
+
+fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instructions: Instructions) {
+    let world = &case.stage.world;
+    let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
+    let query = Query::irradiance(&world.lights);
+    let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
+    group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, Secondary(instructions))));
+}
+
+/// Scalar, or the name of the vector instructions.
+fn name(instructions: Instructions) -> String {
+    let text = format!("{instructions:?}").to_lowercase();
+    let mut words = text.split(|c: char| !c.is_alphanumeric());
+    words.find(|word| !["instructions", "lanes"].contains(word)).unwrap_or_default().to_owned()
+}

@@ -9,7 +9,7 @@ use twoforms_scene::Camera;
 /// distance along the camera's axis is one metre. The vertical field of view is the camera's; pixels are square.
 pub fn ray(camera: &Camera, [x, y]: [f64; 2], [width, height]: [u32; 2]) -> Ray {
     let (w, h) = (f64::from(width), f64::from(height));
-    let half = (0.5 * camera.yfov).tan();
+    let half = libm::tan(0.5 * camera.yfov);
     let right = (2.0 * x - w) / h * half;
     let up = (h - 2.0 * y) / h * half;
     Ray::new(camera.position, camera.forward + camera.right * right + camera.up * up)

@@ -33,8 +33,8 @@ impl Lights {
 
     /// L_e of a target, RGB.
     #[inline(always)]
-    pub fn radiance(&self, target: u32) -> [f32; 3] {
-        self.radiance[target as usize]
+    pub fn radiance(&self, target: u32) -> &[f32; 3] {
+        &self.radiance[target as usize]
     }
 
     /// Area of each target in square metres.

@@ -68,9 +68,7 @@ impl Moments {
 #[inline(always)]
 fn padded<W: Wide>(values: &[f64]) -> W {
     let mut all = [0.0; EIGHT];
-    for k in 0..values.len() {
-        all[k] = values[k];
-    }
+    all[..values.len()].copy_from_slice(values);
     W::load(&all)
 }
 

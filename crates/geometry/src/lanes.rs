@@ -7,6 +7,7 @@
 //! A kernel and all that it calls on samples must be `#[inline(always)]`: a function that is not inlined is compiled for
 //! the plainest machine.
 
+use std::borrow::Borrow;
 use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
@@ -226,11 +227,12 @@ impl<S: Simd> Real for Lanes<S> {
         LaneWord(mask.0.select(yes.0, no.0))
     }
     #[inline(always)]
-    fn gather<const K: usize>(index: LaneWord<S>, row: impl Fn(u32) -> [f32; K]) -> [Self; K] {
+    fn gather<const K: usize, T: Borrow<[f32; K]>>(index: LaneWord<S>, row: impl Fn(u32) -> T) -> [Self; K] {
         let mut numbers = [Self::zero(); K];
         match index.few() {
             Few::One(index) => {
                 let row = row(index);
+                let row = row.borrow();
                 for k in 0..K {
                     numbers[k] = Self::splat(row[k]);
                 }
@@ -238,6 +240,7 @@ impl<S: Simd> Real for Lanes<S> {
             Few::Some(found) => {
                 for (word, here) in found.into_iter().flatten() {
                     let row = row(word);
+                    let row = row.borrow();
                     for k in 0..K {
                         numbers[k] = Self::select(here, Self::splat(row[k]), numbers[k]);
                     }
@@ -248,6 +251,7 @@ impl<S: Simd> Real for Lanes<S> {
                 let mut columns = [[0.0; LANES]; K];
                 for lane in 0..LANES {
                     let row = row(index[lane]);
+                    let row = row.borrow();
                     for k in 0..K {
                         columns[k][lane] = row[k];
                     }

@@ -5,6 +5,7 @@
 //! [`select`](Real::select), and whatever must be looked up or traced one sample at a time goes through
 //! [`gather`](Real::gather) or [`each`](Real::each).
 
+use std::borrow::Borrow;
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
@@ -71,7 +72,7 @@ pub trait Real:
     /// The same choice between words.
     fn select_word(mask: Self::Mask, yes: Self::Word, no: Self::Word) -> Self::Word;
     /// Looks up a row of numbers by each sample's index.
-    fn gather<const K: usize>(index: Self::Word, row: impl Fn(u32) -> [f32; K]) -> [Self; K];
+    fn gather<const K: usize, T: Borrow<[f32; K]>>(index: Self::Word, row: impl Fn(u32) -> T) -> [Self; K];
     /// Looks up a word by each sample's index.
     fn gather_word(index: Self::Word, word: impl Fn(u32) -> u32) -> Self::Word;
     /// Computes with each sample's word by itself.
@@ -190,8 +191,8 @@ impl Real for f32 {
         if mask { yes } else { no }
     }
     #[inline(always)]
-    fn gather<const K: usize>(index: u32, row: impl Fn(u32) -> [f32; K]) -> [Self; K] {
-        row(index)
+    fn gather<const K: usize, T: Borrow<[f32; K]>>(index: u32, row: impl Fn(u32) -> T) -> [Self; K] {
+        *row(index).borrow()
     }
     #[inline(always)]
     fn gather_word(index: u32, word: impl Fn(u32) -> u32) -> u32 {

@@ -25,7 +25,7 @@ pub(super) struct Beam<'a> {
     eye: Frame,
     vista: Vista,
     /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
-    axes: [[f32; 3]; 3],
+    axes: [DVec3; 3],
 }
 
 /// A surface seen through the tile.
@@ -57,7 +57,7 @@ impl<'a> Beam<'a> {
         let corners = [toward(x0, y0), toward(x1, y0), toward(x1, y1), toward(x0, y1)];
         let vista = Vista::new(&painter.world.geometry, &eye, &corners)?;
         let side = f64::from(tile.width());
-        let axes = [corners[0], (corners[1] - corners[0]) / side, (corners[3] - corners[0]) / side].map(round);
+        let axes = [corners[0], (corners[1] - corners[0]) / side, (corners[3] - corners[0]) / side];
         Some(Self { painter, tile, eye, vista, axes })
     }
 
@@ -91,7 +91,7 @@ impl<'a> Beam<'a> {
     ) -> Result<(), BrokenPixel> {
         let spread = self.painter.rendering.filter == PixelFilter::Box;
         let key = self.painter.camera_key;
-        lanes::run(Look { chunk, vista: &self.vista, axes: self.axes, key, spread });
+        lanes::run(Look { chunk, vista: &self.vista, axes: self.axes.map(round), key, spread });
         for pane in chunk.panes() {
             let stage = stages[pane as usize].get_or_insert_with(|| self.stage(&self.vista.panes()[pane as usize]));
             self.light(chunk, stage, pane).map_err(|(k, source)| self.broken(chunk, places, k, source))?;
@@ -155,7 +155,9 @@ impl<'a> Beam<'a> {
     }
 
     fn centre(&self, x: u32, y: u32) -> Option<Centre> {
-        let toward = self.eye.to_local(self.painter.toward(f64::from(x) + 0.5, f64::from(y) + 0.5));
+        let [first, right, down] = self.axes;
+        let (right_by, down_by) = (f64::from(x - self.tile.x0) + 0.5, f64::from(y - self.tile.y0) + 0.5);
+        let toward = first + right * right_by + down * down_by;
         let (glimpse, some) = self.vista.look(Vector::from(round(toward))).parts();
         some.then(|| self.painter.centre_of(&self.seen(&self.vista.panes()[glimpse.pane as usize], toward)))
     }

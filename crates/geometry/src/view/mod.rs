@@ -104,14 +104,6 @@ impl<'g> View<'g> {
         }
     }
 
-    #[inline(always)]
-    fn facet_row(&self, target: u32) -> [f32; facet::ROW] {
-        match &self.sights {
-            Some(sights) => sights[target as usize].row(),
-            None => self.wide(target).row(),
-        }
-    }
-
     fn wide(&self, target: u32) -> Wide {
         match (&self.sights, self.facets.get(target as usize)) {
             (Some(sights), _) => *sights[target as usize].facet(),

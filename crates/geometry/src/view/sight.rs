@@ -82,8 +82,8 @@ impl Sight {
     }
 
     #[inline(always)]
-    pub(crate) fn row(&self) -> [f32; ROW] {
-        self.row
+    pub(crate) fn row(&self) -> &[f32; ROW] {
+        &self.row
     }
 }
 

@@ -44,11 +44,18 @@ impl<'v, R: Real> Vantage<'v, R> {
     #[inline(always)]
     pub fn facet(&self, target: R::Word) -> Facet<R> {
         let view = self.view;
-        let facet = Facet::from_row(R::gather(
-            target,
-            #[inline(always)]
-            |k| view.facet_row(k),
-        ));
+        let facet = Facet::from_row(match &view.sights {
+            Some(sights) => R::gather(
+                target,
+                #[inline(always)]
+                |k| sights[k as usize].row(),
+            ),
+            None => R::gather(
+                target,
+                #[inline(always)]
+                |k| view.wide(k).row(),
+            ),
+        });
         match self.start {
             Some(start) => facet.seen_from(start),
             None => facet,

@@ -17,7 +17,7 @@ use crate::blocking::TOLERANCE;
 ///   m = d(L + d) with d = 8ε(8A + 16L + 4|o|). `f32::MIN_POSITIVE` stands for products that underflow.
 /// - Σ u·z, the sum of the edge functions times depths, differs from t'·Σ u by at most 3m(A + 2L) + (|Σ u| + 8m) d,
 ///   whatever sign a Σ u below 3m has. A triangle in a square of side 2L has |Σ u| <= 4L² + 3m, and m >= dL, so that
-///   m(6A + 12L + 12d) is more.
+///   m(6A + 12L + 12d) is more; `f32::MIN_POSITIVE` again for what underflows.
 pub(super) struct Crossings<S: Simd> {
     /// The least and the greatest of the edge functions u, v, w.
     least: f32x8<S>,
@@ -46,7 +46,8 @@ impl<S: Simd> Crossings<S> {
         let (depth, extent) = (az.abs(), packet.extent());
         let d = depth.mul_add(64.0 * EPSILON, f32x8::splat(simd, 128.0 * EPSILON * extent + probe.blur));
         let margin = d.mul_add(d + extent, f32x8::splat(simd, f32::MIN_POSITIVE));
-        let slack = depth.mul_add(6.0, d.mul_add(12.0, f32x8::splat(simd, 12.0 * extent))) * margin;
+        let far = depth.mul_add(6.0, d.mul_add(12.0, f32x8::splat(simd, 12.0 * extent)));
+        let slack = far.mul_add(margin, f32x8::splat(simd, f32::MIN_POSITIVE));
 
         let sum = u + v + w;
         let moment = u.mul_add(az, v.mul_add(bz, w * cz));

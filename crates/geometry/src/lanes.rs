@@ -320,6 +320,11 @@ impl<S: Simd> Real for Lanes<S> {
     fn store(self, numbers: &mut [f32]) {
         self.0.store_slice(&mut numbers[..LANES]);
     }
+    #[inline(always)]
+    fn widen(self) -> [LaneWide<S>; 2] {
+        let (low, high) = self.0.widen();
+        [LaneWide(low), LaneWide(high)]
+    }
 }
 
 impl<S: Simd> LaneMask<S> {

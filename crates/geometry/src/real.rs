@@ -9,7 +9,7 @@ use std::borrow::Borrow;
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::wide::{Eight, Wide};
+use crate::wide::{EIGHT, Eight, Wide};
 
 /// A truth value per sample.
 pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
@@ -88,6 +88,9 @@ pub trait Real:
     fn load(numbers: &[f32]) -> Self;
     /// Writes the numbers in order to the beginning of a slice.
     fn store(self, numbers: &mut [f32]);
+
+    /// The numbers widened, in order; zeros after them.
+    fn widen(self) -> [Self::Wide; 2];
 
     /// Zero.
     #[inline(always)]
@@ -219,6 +222,12 @@ impl Real for f32 {
     #[inline(always)]
     fn store(self, numbers: &mut [f32]) {
         numbers[0] = self;
+    }
+    #[inline(always)]
+    fn widen(self) -> [Eight; 2] {
+        let mut first = [0.0; EIGHT];
+        first[0] = f64::from(self);
+        [Eight::load(&first), Eight::splat(0.0)]
     }
 }
 

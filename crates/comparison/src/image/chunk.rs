@@ -221,11 +221,8 @@ impl<F: Formulation, D: Density<F::Measure>> Kernel for Receive<'_, '_, F, D> {
                 let (Rgb(worth), ray) = estimator.primary(&from, xi);
                 rays = rays.wrapping_add(R::select_word(ray, R::Word::splat(1), R::Word::splat(0)));
                 for c in 0..3 {
-                    let mut numbers = [0.0; ROOM];
-                    worth[c].store(&mut numbers);
-                    for half in 0..2 {
-                        sums[c][half] = sums[c][half] + R::Wide::widen(&numbers[half * EIGHT..]);
-                    }
+                    let [low, high] = worth[c].widen();
+                    sums[c] = [sums[c][0] + low, sums[c][1] + high];
                 }
             }
             rays.store(&mut chunk.rays[k..]);

@@ -172,9 +172,23 @@ impl<'a> Beam<'a> {
     fn not_finite(&self, [x, y]: [u32; 2], chunk: &Chunk, piece: &Piece) -> BrokenPixel {
         let broken = |k: &usize| chunk.value.iter().any(|channel| !channel[*k].is_finite());
         let k = piece.places().find(broken).unwrap_or(piece.start);
-        let value = chunk.value.each_ref().map(|channel| channel[k] as f32);
-        let source = NotFinite { index: 0, value, words: [0; 2] };
+        let source = self.source_of(chunk, k);
         BrokenPixel { strategy: self.painter.rendering.strategy, x, y, sample: chunk.stream(k)[1], source }
+    }
+
+    /// The light sample that is not finite, found one by one; if it is finite there, the camera sample's value, beside the
+    /// random words of its first light sample.
+    fn source_of(&self, chunk: &Chunk, k: usize) -> NotFinite {
+        let pane = self.vista.panes().get(chunk.pane(k) as usize);
+        let one_by_one = pane.and_then(|pane| {
+            let seen = self.seen(pane, DVec3::from_array(chunk.toward(k).map(f64::from)));
+            self.painter.receive(&seen, &self.painter.surface(&seen).query?, chunk.stream(k)).err()
+        });
+        one_by_one.unwrap_or_else(|| NotFinite {
+            index: 0,
+            value: chunk.value.each_ref().map(|channel| channel[k] as f32),
+            words: self.painter.light_stream(chunk.stream(k)).xi(0).words(),
+        })
     }
 }
 

@@ -118,6 +118,11 @@ impl Chunk {
         [self.toward[0][k], self.toward[1][k], self.toward[2][k]]
     }
 
+    /// The pane that a sample meets.
+    pub(super) fn pane(&self, k: usize) -> u32 {
+        self.pane[k]
+    }
+
     /// The stream of a sample.
     pub(super) fn stream(&self, k: usize) -> [u32; 2] {
         [self.streams[0][k], self.streams[1][k]]

@@ -138,11 +138,15 @@ impl<'a> Painter<'a> {
 
     /// The mean of the light samples at one point, and the rays it took.
     pub(super) fn receive(&self, seen: &Seen, query: &Query, stream: [u32; 2]) -> Result<([f64; 3], u64), NotFinite> {
-        let Rendering { light_samples, sampler, .. } = *self.rendering;
+        let light_samples = self.rendering.light_samples;
         let effort = if light_samples >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
         let view = View::new(&self.world.geometry, Frame::new(seen.position, seen.normal), effort);
-        let draws = Draws { key: self.light_key, stream };
-        self.prepared.run(&view, query, Secondary { sampler, draws, n: light_samples })
+        self.prepared.run(&view, query, Secondary { stream: self.light_stream(stream), n: light_samples })
+    }
+
+    /// The random numbers of the light samples of one camera sample.
+    pub(super) fn light_stream(&self, stream: [u32; 2]) -> Stream {
+        Stream { sampler: self.rendering.sampler, draws: Draws { key: self.light_key, stream } }
     }
 
     /// Direction from the camera through a point of the image, in pixels.
@@ -174,8 +178,7 @@ impl<'a> Painter<'a> {
 
 /// The mean of n light samples, and the rays it took.
 struct Secondary {
-    sampler: Sampler,
-    draws: Draws,
+    stream: Stream,
     n: u32,
 }
 
@@ -183,7 +186,7 @@ impl Kernel for Secondary {
     type Output = Result<([f64; 3], u64), NotFinite>;
 
     fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        let estimate = estimator.secondary(self.n, Stream { sampler: self.sampler, draws: self.draws })?;
+        let estimate = estimator.secondary(self.n, self.stream)?;
         Ok((estimate.value, estimate.rays))
     }
 }

@@ -21,13 +21,13 @@ pub trait Visitor {
 /// compile here until its density has a domain to be tested on.
 pub fn visit<V: Visitor>(strategy: Strategy, lights: &Lights, view: &View, visitor: V) -> Option<V::Output> {
     match strategy {
-        Strategy::HemisphereUniform => Some(visitor.visit(view, &UniformHemisphere, &HemisphereCells)),
-        Strategy::HemisphereCosine => Some(visitor.visit(view, &CosineHemisphere, &HemisphereCells)),
-        Strategy::HemisphereTowardLights(selection) => {
+        Strategy::from(Kind::HemisphereUniform) => Some(visitor.visit(view, &UniformHemisphere, &HemisphereCells)),
+        Strategy::from(Kind::HemisphereCosine) => Some(visitor.visit(view, &CosineHemisphere, &HemisphereCells)),
+        Strategy::from((Kind::HemisphereTowardLights, selection)) => {
             let picker = &Picker::new(selection, lights)?;
             Some(visitor.visit(view, &TowardLights { lights: OnLights { picker } }, &LightCells::new(view, picker)))
         }
-        Strategy::Area(Draw::Uniform, selection) => {
+        Strategy::from((Kind::AreaUniform, selection)) => {
             let picker = &Picker::new(selection, lights)?;
             Some(visitor.visit(view, &OnLights { picker }, &LightCells::new(view, picker)))
         }

@@ -136,7 +136,7 @@ fn a_crop_is_part_of_the_image() {
     let stage = worlds::stage("cornell-box");
     let camera = &stage.world.scene.cameras[0];
     let whole = Rendering {
-        strategy: Strategy::HemisphereCosine,
+        strategy: Strategy::from(Kind::HemisphereCosine),
         sampler: Sampler::Independent,
         width: 12,
         height: 9,

@@ -68,7 +68,7 @@ fn a_furnace_is_one_plus_its_albedo_everywhere() {
     let outcomes = Strategy::all().into_iter().map(outcome).collect();
     Family::new("means of furnace images", LEVEL, SEED, outcomes).assert_holds(0.0);
 
-    for pixel in render(&rendering(Strategy::HemisphereCosine, [32, 24], 4), &stage, camera) {
+    for pixel in render(&rendering(Strategy::from(Kind::HemisphereCosine), [32, 24], 4), &stage, camera) {
         let off = pixel.mean.map(|c| (c - 1.0 - albedo).abs());
         assert!(off.iter().all(|&off| off <= BUDGET), "{pixel:?}");
     }
@@ -198,7 +198,7 @@ fn strategies_agree_at_every_block_of_an_image() {
             Rendering { radiance: false, light_samples: LIGHT_SAMPLES, ..rendering(strategy, [SIZE, SIZE], SPP) };
         render(&irradiance, &stage, camera)
     };
-    let area = Strategy::Area(Draw::Uniform, Selection::Together);
+    let area = Strategy::from(Kind::AreaUniform);
     let reference = image(area);
     let brightest = PI * f64::from(stage.world.lights.radiance(0)[0]);
     let mut outcomes = Vec::new();

@@ -50,7 +50,7 @@ impl Comparison {
 /// The ways to pick a light that `area/uniform` can be sampled with.
 fn selections() -> impl Iterator<Item = Selection> {
     let selection =
-        |strategy| if let Strategy::Area(Draw::Uniform, selection) = strategy { Some(selection) } else { None };
+        |strategy| if let Strategy::from((Kind::AreaUniform, selection)) = strategy { Some(selection) } else { None };
     Strategy::all().into_iter().filter_map(selection)
 }
 
@@ -87,7 +87,7 @@ fn through_both(case: &Case, selection: Selection) -> Comparison {
     let query = Query::irradiance(&world.lights);
     let picker = picker(&world.lights, selection);
     let lights = OnLights { picker: &picker };
-    let draws = Samples::new(SEED, &case.place, Strategy::Area(Draw::Uniform, selection), Sampler::Independent, N);
+    let draws = Samples::new(SEED, &case.place, Strategy::from((Kind::AreaUniform, selection)), Sampler::Independent, N);
     Comparison::of((0..N).filter_map(|index| {
         let (Sample { at: y, pdf: p }, some) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
         let xy = Segment::to(&y);
@@ -108,8 +108,8 @@ fn the_jacobian_cancels() {
 fn toward_lights_is_area_uniform_sample_by_sample() {
     assert_same(|case, selection| {
         let draw = |strategy| samples(case, strategy, Sampler::Independent, N, SEED);
-        let area = draw(Strategy::Area(Draw::Uniform, selection));
-        let hemisphere = draw(Strategy::HemisphereTowardLights(selection));
+        let area = draw(Strategy::from((Kind::AreaUniform, selection)));
+        let hemisphere = draw(Strategy::from((Kind::HemisphereTowardLights, selection)));
         Comparison::of(area.into_iter().zip(hemisphere).map(|(a, h)| [a, h]))
     });
 }
@@ -123,7 +123,7 @@ fn a_density_goes_to_the_other_measure_and_back() {
         let view = View::new(&world.geometry, case.place.frame(), Effort::Cast);
         let picker = picker(&world.lights, Selection::Together);
         let lights = OnLights { picker: &picker };
-        let strategy = Strategy::Area(Draw::Uniform, Selection::Together);
+        let strategy = Strategy::from(Kind::AreaUniform);
         let draws = Samples::new(SEED, &case.place, strategy, Sampler::Independent, N);
         for index in 0..N {
             let (Sample { at: y, pdf: p }, _) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();

@@ -159,7 +159,7 @@ impl<'a> Trial<'a> {
     fn new(case: Case<'a>) -> Self {
         let world = &case.stage.world;
         let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
-        let strategy = Strategy::HemisphereUniform;
+        let strategy = Strategy::from(Kind::HemisphereUniform);
         let draws = Samples::new(SEED, &case.place, strategy, Sampler::Independent, N);
         Self { view, query: Query::irradiance(&world.lights), draws, case }
     }

@@ -92,7 +92,7 @@ fn under(matrix: [[f64; 3]; 3], document: &mut Value) {
 #[test]
 fn a_mirror_changes_nothing() {
     let mirrored = world(&parts(), &receivers(), mirror);
-    same_light(&mirrored, &plain(&parts()), &Strategy::with_exact_variance());
+    same_light(&mirrored, &plain(&parts()), &Strategy::all());
 }
 
 #[test]
@@ -102,14 +102,14 @@ fn quarter_turns_change_nothing() {
     let turns = [[minus(z), y, x], [minus(x), y, minus(z)], [y, minus(x), z], [y, z, x], [x, z, minus(y)]];
     for turn in turns {
         let turned = world(&parts(), &receivers(), |document| under(turn, document));
-        same_light(&turned, &plain(&parts()), &Strategy::with_exact_variance());
+        same_light(&turned, &plain(&parts()), &Strategy::all());
     }
 }
 
 /// Strategies whose density over points does not depend on how lights of one radiance are cut into primitives.
 fn indifferent_to_cuts() -> Vec<Strategy> {
     let depends = |strategy: &Strategy| match *strategy {
-        Strategy::Area(Draw::Uniform, selection) | Strategy::HemisphereTowardLights(selection) => {
+        Strategy::from((Kind::AreaUniform, selection)) | Strategy::from((Kind::HemisphereTowardLights, selection)) => {
             matches!(selection, Selection::Uniform | Selection::Contribution)
         }
         Strategy::Area(Draw::SolidAngle, selection) => selection != Selection::Together,
@@ -118,7 +118,7 @@ fn indifferent_to_cuts() -> Vec<Strategy> {
         }
         _ => false,
     };
-    Strategy::with_exact_variance().into_iter().filter(|strategy| !depends(strategy)).collect()
+    Strategy::all().into_iter().filter(|strategy| !depends(strategy)).collect()
 }
 
 #[test]
@@ -143,6 +143,6 @@ fn a_triangle_that_hides_nothing_changes_nothing() {
     };
     for at in [[0.125, 0.5, 0.0], [0.0, 1.75, 0.0], [0.25, -0.75, 0.25], [-1.25, 0.5, 0.0]] {
         let with = [parts(), vec![Part::new("hidden", grey, vec![triangle(at)])]].concat();
-        same_light(&plain(&with), &plain(&parts()), &Strategy::with_exact_variance());
+        same_light(&plain(&with), &plain(&parts()), &Strategy::all());
     }
 }

@@ -77,12 +77,12 @@ fn a_cosine_weighted_sample_of_one_radiance_is_a_coin() {
         if (0..lights.targets() as u32).any(|k| lights.radiance(k) != radiance) {
             continue;
         }
-        let drawn = samples(&case, Strategy::HemisphereCosine, Sampler::Independent, N, SEED);
+        let drawn = samples(&case, Strategy::from(Kind::HemisphereCosine), Sampler::Independent, N, SEED);
         let (l, e) = (f64::from(radiance[0]), case.known.irradiance[0]);
         let hits: Vec<f64> = drawn.iter().map(|w| f64::from(w[0])).filter(|&w| w != 0.0).collect();
         let other = hits.iter().find(|&&w| (w / (PI * l) - 1.0).abs() > 1e-6);
         assert_eq!(other, None, "{case}: a sample that is neither 0 nor {}", PI * l);
-        let cited = case.variance(Strategy::HemisphereCosine).expect("a cited variance")[0];
+        let cited = case.variance(Strategy::from(Kind::HemisphereCosine)).expect("a cited variance")[0];
         assert!((cited - e * (PI * l - e)).abs() <= 1e-12 * PI * l * e, "{case}: {cited} is cited");
         let test = BinomialTest { hits: hits.len() as u64, trials: N.into(), probability: e / (PI * l) };
         outcomes.push(Outcome::Tested { p: test.p(), evidence: format!("{case}: {test}") });

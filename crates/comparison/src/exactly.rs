@@ -26,6 +26,9 @@ pub struct ExactResult {
     /// The light there.
     #[serde(flatten)]
     pub light: ExactLight,
+    /// α of the default team with optimal weights, RGB, where a strategy uses it.
+    #[serde(skip)]
+    pub(crate) alpha: Option<[[f64; 3]; 2]>,
     /// The light along a sweep, where one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Swept>,
@@ -102,14 +105,16 @@ pub fn exactly(
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
     let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
-    ExactResult::new(place, ExactLight::of(place, sight, strategies), None)
+    let needed = strategies.iter().any(|strategy| strategy.needs_alpha());
+    let alpha = sight.as_ref().ok().filter(|_| needed).and_then(|sight| sight.optimal_alpha().ok());
+    ExactResult { alpha, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
 }
 
 impl ExactResult {
     /// What is known at a place.
     pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
         let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());
-        Self { name, position, normal, light, sweep }
+        Self { name, position, normal, light, alpha: None, sweep }
     }
 }
 

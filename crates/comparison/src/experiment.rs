@@ -51,14 +51,17 @@ impl Experiment {
     /// `progress` is told of samples drawn, from any thread.
     ///
     /// # Errors
-    /// When a strategy has no sampler, or a sample is not finite.
+    /// When a strategy is impossible, or a sample is not finite.
     pub fn run(
         &self,
         world: &World,
         places: &[Place],
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<ReceiverResult>, ComparisonError> {
-        let prepared = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(why) = self.strategies.iter().find_map(|strategy| strategy.impossible()) {
+            return Err(ComparisonError::Impossible(why));
+        }
+        let prepared: Vec<Prepared> = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect();
         let plans = self.plans(&prepared);
         let mut report = Report::default();
         for group in places.chunks(RECEIVERS_AT_ONCE) {
@@ -71,7 +74,9 @@ impl Experiment {
         let mut plans = Vec::new();
         for prepared in prepared {
             for &sampler in &self.samplers {
-                plans.extend(self.samples.iter().map(|&samples| Plan { prepared, sampler, samples }));
+                let mut samples: Vec<u32> = self.samples.iter().map(|&samples| sampler.rounded(samples)).collect();
+                samples.dedup();
+                plans.extend(samples.into_iter().map(|samples| Plan { prepared, sampler, samples }));
             }
         }
         plans
@@ -92,7 +97,7 @@ impl Experiment {
             .par_iter()
             .map(|task| {
                 let (place, plan) = (&places[task.place], &plans[task.plan]);
-                let part = self.measure(world, place, &ready[task.place].view, plan, task)?;
+                let part = self.measure(world, place, &ready[task.place], plan, task)?;
                 progress(u64::from(plan.samples) * task.replicates.len() as u64);
                 Ok(part)
             })
@@ -125,13 +130,14 @@ impl Experiment {
         &self,
         world: &World,
         place: &Place,
-        view: &View,
+        ready: &Ready,
         plan: &Plan,
         task: &Task,
     ) -> Result<Measurement, Broken> {
         let strategy = plan.prepared.strategy();
         let key = self.key(place, strategy, plan.sampler);
-        Measurement::of(plan, view, &place.query(&world.lights), place.emission(), key, task).map_err(
+        let (query, known) = (place.query(&world.lights), ready.answer.known());
+        Measurement::of(plan, &ready.view, &query, &known, place.emission(), key, task).map_err(
             |(replicate, source)| Broken {
                 receiver: place.name.clone(),
                 strategy,

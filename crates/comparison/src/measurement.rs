@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{self, Estimator, NotFinite};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::{self, NotFinite};
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::sampler::Stream;
-use twoforms_estimator::strategy::Kernel;
+use twoforms_estimator::strategy::{Kernel, Known};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::view::View;
 
@@ -30,7 +29,7 @@ pub(crate) struct Measurement {
     /// Samples that were not zero.
     pub(crate) hits: u64,
     /// Range of the samples that were not zero.
-    pub(crate) range: estimator::Range,
+    pub(crate) range: estimate::Range,
     /// CPU seconds.
     pub(crate) seconds: f64,
 }
@@ -41,12 +40,13 @@ impl Measurement {
         plan: &Plan,
         view: &View,
         query: &Query,
+        known: &Known,
         emission: [f64; 3],
         key: Key,
         task: &Task,
     ) -> Result<Self, (u32, NotFinite)> {
         let replicates = Replicates { plan, key, range: task.replicates.clone(), emission };
-        let (measured, seconds) = clock::timed(|| plan.prepared.run(view, query, replicates));
+        let (measured, seconds) = clock::timed(|| plan.prepared.run(view, query, known, replicates));
         Ok(Self { seconds, ..measured? })
     }
 
@@ -67,7 +67,7 @@ impl Measurement {
         Self { one, hits, range: self.range.with(row.range), ..self }
     }
 
-    fn push(&mut self, estimate: &estimator::Estimate, emission: [f64; 3]) {
+    fn push(&mut self, estimate: &estimate::Estimate, emission: [f64; 3]) {
         let value: [f64; 3] = std::array::from_fn(|c| estimate.value[c] + emission[c]);
         self.estimates.push(luminance(value));
         self.total = std::array::from_fn(|c| self.total[c] + value[c]);
@@ -88,13 +88,13 @@ struct Replicates<'a> {
 impl Kernel for Replicates<'_> {
     type Output = Result<Measurement, (u32, NotFinite)>;
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
         let Plan { sampler, samples, .. } = *self.plan;
         let mut measurement = Measurement::default();
         for replicate in self.range {
             let draws = Draws { key: self.key, stream: [samples, replicate] };
             let estimate = estimator
-                .secondary(samples, Stream { sampler, draws })
+                .secondary(Stream { sampler, draws, n: samples })
                 .map_err(|not_finite| (replicate, not_finite))?;
             measurement.push(&estimate, self.emission);
         }

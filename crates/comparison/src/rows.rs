@@ -90,8 +90,10 @@ fn evidence(receiver: usize, emission: f64, measured: &[(&Plan, Measurement)], a
             samples_per_unit: 1.0,
             hits: pooled.hits,
             one_value: pooled.range.is_one_value().then_some(pooled.range.high),
+            signed: strategy.can_be_negative(),
+            biased: strategy.is_biased(),
         };
-        if sampler == Sampler::Independent { evidence } else { evidence.of_replicates(&replicates(&rows, emission)) }
+        if sampler == Sampler::Independent && !strategy.is_biased() { evidence } else { evidence.of_replicates(&replicates(&rows, emission)) }
     };
     pairs(measured).into_iter().map(of).collect()
 }
@@ -129,8 +131,11 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
     let variance_ratio = or_why(&mut why, "variance_ratio", variance_of_mean.and_then(over_exact), || {
         "the measured or the exact variance is unknown, or the exact one is zero".into()
     });
-    let variance_of_one =
-        or_why(&mut why, "variance_of_one", measured.one.variance(), || "there is a single sample".into());
+    let of_one = measured.one.variance().filter(|_| !strategy.is_biased());
+    let variance_of_one = or_why(&mut why, "variance_of_one", of_one, || match strategy.is_biased() {
+        true => "an estimate is a quotient of sums, not a mean of samples".into(),
+        false => "there is a single sample".into(),
+    });
     let efficiency = variance_of_mean.and_then(|variance| efficiency(variance, seconds));
     Row {
         strategy: strategy.to_string(),

@@ -1,4 +1,4 @@
-//! Estimators: a formulation and a density of one measure.
+//! Estimators of the light that x receives, in the lecture's words: primary with one sample, secondary with the mean of N.
 
 use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::masked::Masked;
@@ -7,185 +7,195 @@ use twoforms_geometry::view::{Vantage, View};
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 use crate::density::Density;
+use crate::estimate::{Estimate, NotFinite, Range};
 use crate::formulation::Formulation;
 use crate::measure::Sample;
 use crate::moments::Moments;
+use crate::numbers::{BATCH, Drawn, Numbers};
 use crate::query::Query;
 use crate::rgb::{LUMINANCE, Rgb};
 use crate::sampler::Stream;
-use crate::xi::{DIMENSIONS, Words, Xi};
+use crate::xi::Xi;
 
-/// An estimator of the light that x receives, in the lecture's words: primary with one sample, secondary with the mean of N.
-#[derive(Clone, Copy)]
-pub struct Estimator<'a, F, D> {
-    view: &'a View<'a>,
-    query: &'a Query<'a>,
-    density: D,
-    formulation: std::marker::PhantomData<F>,
+/// What one sample is worth, and the rays that it asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Worth<R: Real> {
+    /// ⟨I⟩_prim, RGB.
+    pub value: Rgb<R>,
+    /// Rays: evaluations of vp or V.
+    pub rays: R::Word,
 }
 
-/// An estimate: what N samples add up to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// ⟨I⟩_sec = (1/N) Σ f(x_i)/p(x_i), RGB.
-    pub value: [f64; 3],
-    /// Moments of the single samples' luminances.
-    pub luminance: Moments,
-    /// Rays asked for.
-    pub rays: u64,
-    /// Samples that were not zero.
-    pub hits: u64,
-    /// Smallest and largest luminance among the samples that were not zero; (∞, −∞) without any.
-    pub range: Range,
-}
-
-/// The smallest and the largest of some values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// The smallest, +∞ without values.
-    pub low: f64,
-    /// The largest, −∞ without values.
-    pub high: f64,
-}
-
-impl Default for Range {
-    fn default() -> Self {
-        Self { low: f64::INFINITY, high: f64::NEG_INFINITY }
-    }
-}
-
-impl Range {
-    /// The range of both.
-    pub fn with(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    /// Whether all values are the same but for the rounding of binary32 arithmetic (some ten roundings).
-    pub fn is_one_value(&self) -> bool {
-        self.low <= self.high && self.high - self.low <= 1e-6 * self.high.abs()
-    }
-}
-
-/// A sample that came out infinite or not a number.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("sample {index} is worth {value:?}, which is not finite; its random words are {words:?}")]
-pub struct NotFinite {
-    /// Which sample of the estimate.
-    pub index: u32,
-    /// Its value, RGB.
-    pub value: [f32; 3],
-    /// ξ.
-    pub words: [u32; DIMENSIONS],
-}
-
-/// Samples evaluated before their moments are merged.
-const BATCH: usize = 128;
-
-impl<'a, F: Formulation, D: Density<F::Measure>> Estimator<'a, F, D> {
-    /// The estimator of `query` at x by formulation F with points drawn from `density`.
-    pub fn new(view: &'a View<'a>, query: &'a Query<'a>, density: D) -> Self {
-        Self { view, query, density, formulation: std::marker::PhantomData }
-    }
+/// An estimator at one x.
+pub trait Estimator {
+    /// Whether the estimate is a quotient of two sums instead of a mean.
+    const QUOTIENT: bool = false;
 
     /// What x sees.
-    pub fn view(&self) -> &'a View<'a> {
-        self.view
+    fn view(&self) -> &View<'_>;
+
+    /// Pairs of random numbers that a sample takes.
+    fn pairs(&self) -> usize {
+        1
     }
 
-    /// ⟨I⟩_prim = f(x)/p(x): one sample each, and where it asked for a ray. Samples that are not wanted are worth zero.
+    /// ⟨I⟩_prim: what samples are worth. Those that are not wanted are worth zero.
+    fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R>;
+
+    /// What the same samples add to the divisor, RGB, where the estimate is a quotient.
     #[inline(always)]
-    pub fn primary<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> (Rgb<R>, R::Mask) {
-        let (Sample { at, pdf }, some) = self.density.sample(from, xi).parts();
-        let some = some & from.wanted();
-        if !some.any() {
-            return (Rgb::splat([0.0; 3]), some);
-        }
-        let worth = F::integrand(&from.only(some), self.query, &at) / pdf;
-        (worth.or_black(some), some & F::asks(&at))
+    fn divisor<R: Real>(&self, _: &Vantage<R>, _: Drawn) -> Rgb<R> {
+        Rgb::splat([0.0; 3])
     }
 
-    /// The drawn point and its density, for tests and figures.
-    pub fn sample<R: Real>(&self, xi: Xi<R>) -> Masked<Sample<F::Measure, R>, R> {
-        self.density.sample(&self.view.from_x(), xi)
+    /// The estimate from the sum of worths and that of divisors over n samples.
+    #[inline(always)]
+    fn estimate(&self, sum: [f64; 3], _: [f64; 3], n: u32) -> [f64; 3] {
+        sum.map(|sum| sum / f64::from(n))
     }
 
-    /// ⟨I⟩_sec = (1/N) Σ f(x_i)/p(x_i), with ξ_i from `stream`, by the best instructions of this machine.
+    /// ⟨I⟩_sec = (1/N) Σ ⟨I⟩_prim, with ξ_i from `stream`, by the best instructions of this machine.
     ///
     /// # Errors
     /// When a sample is not finite.
-    pub fn secondary(&self, n: u32, stream: Stream) -> Result<Estimate, NotFinite> {
-        self.secondary_by(Instructions::best(), n, stream)
+    fn secondary(&self, stream: Stream) -> Result<Estimate, NotFinite>
+    where
+        Self: Sized,
+    {
+        self.secondary_by(Instructions::best(), stream)
     }
 
     /// The same estimate by other instructions. The bits do not depend on them.
     ///
     /// # Errors
     /// When a sample is not finite.
-    pub fn secondary_by(&self, instructions: Instructions, n: u32, stream: Stream) -> Result<Estimate, NotFinite> {
-        instructions.run(Secondary { estimator: self, n, stream })
+    fn secondary_by(&self, instructions: Instructions, stream: Stream) -> Result<Estimate, NotFinite>
+    where
+        Self: Sized,
+    {
+        instructions.run(Secondary { estimator: self, instructions, stream })
     }
 }
 
+/// One technique: a formulation and a density of one measure. ⟨I⟩_prim = f(x)/p(x).
+#[derive(Clone, Copy)]
+pub struct Single<'a, F, D> {
+    pub(crate) view: &'a View<'a>,
+    pub(crate) query: &'a Query<'a>,
+    pub(crate) density: D,
+    formulation: std::marker::PhantomData<F>,
+}
+
+impl<'a, F: Formulation, D: Density<F::Measure>> Single<'a, F, D> {
+    /// The estimator of `query` at x by formulation F with points drawn from `density`.
+    pub fn new(view: &'a View<'a>, query: &'a Query<'a>, density: D) -> Self {
+        Self { view, query, density, formulation: std::marker::PhantomData }
+    }
+
+    /// The drawn point and its density, for tests and figures.
+    pub fn sample<R: Real>(&self, xi: Xi<R>) -> Masked<Sample<F::Measure, R>, R> {
+        self.density.sample(&self.view.from_x(), xi)
+    }
+}
+
+impl<F: Formulation, D: Density<F::Measure>> Estimator for Single<'_, F, D> {
+    fn view(&self) -> &View<'_> {
+        self.view
+    }
+
+    #[inline(always)]
+    fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R> {
+        let (Sample { at, pdf }, some) = self.density.sample(from, drawn.xi(0)).parts();
+        let some = some & from.wanted();
+        if !some.any() {
+            return Worth { value: Rgb::splat([0.0; 3]), rays: R::Word::splat(0) };
+        }
+        let value = F::integrand(&from.only(some), self.query, &at) / pdf;
+        Worth { value: value.or_black(some), rays: count::<R>(some & F::asks(&at)) }
+    }
+}
+
+/// One where the mask holds, else zero.
+#[inline(always)]
+pub(crate) fn count<R: Real>(mask: R::Mask) -> R::Word {
+    R::select_word(mask, R::Word::splat(1), R::Word::splat(0))
+}
+
 /// The secondary estimator with its numbers yet to be chosen.
-struct Secondary<'e, 'a, F, D> {
-    estimator: &'e Estimator<'a, F, D>,
-    n: u32,
+struct Secondary<'e, E> {
+    estimator: &'e E,
+    instructions: Instructions,
     stream: Stream,
 }
 
-impl<F: Formulation, D: Density<F::Measure>> Kernel for Secondary<'_, '_, F, D> {
+impl<E: Estimator> Kernel for Secondary<'_, E> {
     type Output = Result<Estimate, NotFinite>;
 
     #[inline(always)]
     fn run<R: Real>(self) -> Self::Output {
-        let mut estimate = Estimate::default();
-        let mut batch = Batch::new();
-        for start in (0..self.n).step_by(BATCH) {
-            let length = BATCH.min((self.n - start) as usize);
+        let (mut estimate, n) = (Estimate::default(), self.stream.n);
+        let mut batch = Batch::new(self.estimator.pairs());
+        let mut divisor = [0.0; 3];
+        for start in (0..n).step_by(BATCH) {
+            let length = BATCH.min((n - start) as usize);
             (batch.length, batch.rays) = (length, 0);
-            self.stream.fill::<R, BATCH>(start, length, &mut batch.words);
+            self.stream.fill(self.instructions, start, length, &mut batch.numbers);
             for offset in (0..length).step_by(R::LANES) {
                 self.evaluate::<R>(offset, &mut batch);
             }
             estimate.add::<R::Wide>(&batch).map_err(|offset| batch.not_finite(start, offset))?;
+            if E::QUOTIENT {
+                batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..length]));
+            }
         }
-        estimate.value = estimate.value.map(|sum| sum / f64::from(self.n));
+        estimate.value = self.estimator.estimate(estimate.value, divisor, n);
         Ok(estimate)
     }
 }
 
-impl<F: Formulation, D: Density<F::Measure>> Secondary<'_, '_, F, D> {
+impl<E: Estimator> Secondary<'_, E> {
     /// Samples that lie side by side, from `offset` of the batch on.
     #[inline(always)]
     fn evaluate<R: Real>(&self, offset: usize, batch: &mut Batch) {
         let wanted = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
-        let from = self.estimator.view.from_x::<R>().only(wanted);
-        let (Rgb(worth), ray) = self.estimator.primary(&from, Xi::load(&batch.words, offset));
+        let from = self.estimator.view().from_x::<R>().only(wanted);
+        let drawn = batch.numbers.from(offset);
+        let Worth { value: Rgb(mut worth), rays } = self.estimator.primary(&from, drawn);
+        if let Some(weight) = drawn.weight::<R>() {
+            worth = [worth[0] * weight, worth[1] * weight, worth[2] * weight];
+        }
+        if E::QUOTIENT {
+            let Rgb(divisor) = self.estimator.divisor(&from, drawn);
+            for c in 0..3 {
+                divisor[c].store(&mut batch.divisor[c][offset..]);
+            }
+        }
         for c in 0..3 {
             worth[c].store(&mut batch.worth[c][offset..]);
         }
-        batch.rays += u64::from(ray.count());
+        batch.rays += u64::from(rays.sum());
     }
 }
 
 /// Some samples: their ξ, what they are worth, RGB, and the rays they asked for.
 struct Batch {
-    words: Words<BATCH>,
+    numbers: Numbers,
     worth: [[f32; BATCH]; 3],
+    divisor: [[f32; BATCH]; 3],
     length: usize,
     rays: u64,
 }
 
 impl Batch {
-    #[inline(always)]
-    fn new() -> Self {
-        Self { words: [[0; BATCH]; DIMENSIONS], worth: [[0.0; BATCH]; 3], length: 0, rays: 0 }
+    fn new(pairs: usize) -> Self {
+        let black = [[0.0; BATCH]; 3];
+        Self { numbers: Numbers::new(pairs), worth: black, divisor: black, length: 0, rays: 0 }
     }
 
     #[cold]
     fn not_finite(&self, start: u32, offset: usize) -> NotFinite {
-        let words = Xi::<f32>::load(&self.words, offset).words();
-        NotFinite { index: start + offset as u32, value: self.worth.map(|channel| channel[offset]), words }
+        let value = self.worth.map(|channel| channel[offset]);
+        NotFinite { index: start + offset as u32, value, words: self.numbers.words(offset) }
     }
 
     #[cold]
@@ -226,6 +236,10 @@ impl Estimate {
         self.rays += batch.rays;
         Ok(())
     }
+}
+
+fn total(values: &[f32]) -> f64 {
+    values.iter().map(|&value| f64::from(value)).sum()
 }
 
 #[inline(always)]

@@ -43,6 +43,12 @@ pub trait Measure: sealed::Sealed + Copy + Debug {
     type Point<R: Real>: Copy;
     /// The differential, as formulas write it.
     const SYMBOL: &'static str;
+
+    /// The point of the domain at which x comes upon a point y of a light.
+    fn point<R: Real>(y: &SurfacePoint<R>, xy: &Segment<R>) -> Self::Point<R>;
+
+    /// The same density per solid angle, at a point of the domain where x comes upon y.
+    fn per_solid_angle<R: Real>(pdf: Pdf<Self, R>, xy: &Segment<R>) -> Pdf<SolidAngle, R>;
 }
 
 /// Solid angle at x: dω_Ψ, in steradian, over the hemisphere around N_x.
@@ -56,11 +62,33 @@ pub struct SurfaceArea;
 impl Measure for SolidAngle {
     type Point<R: Real> = Aim<R>;
     const SYMBOL: &'static str = "dω_Ψ";
+
+    /// Ψ from x to y.
+    #[inline(always)]
+    fn point<R: Real>(y: &SurfacePoint<R>, xy: &Segment<R>) -> Aim<R> {
+        Aim { psi: xy.psi, target: y.target }
+    }
+
+    #[inline(always)]
+    fn per_solid_angle<R: Real>(pdf: Pdf<Self, R>, _: &Segment<R>) -> Pdf<SolidAngle, R> {
+        pdf
+    }
 }
 
 impl Measure for SurfaceArea {
     type Point<R: Real> = SurfacePoint<R>;
     const SYMBOL: &'static str = "dA_y";
+
+    /// y itself.
+    #[inline(always)]
+    fn point<R: Real>(y: &SurfacePoint<R>, _: &Segment<R>) -> SurfacePoint<R> {
+        *y
+    }
+
+    #[inline(always)]
+    fn per_solid_angle<R: Real>(pdf: Pdf<Self, R>, xy: &Segment<R>) -> Pdf<SolidAngle, R> {
+        pdf.per_solid_angle(xy)
+    }
 }
 
 /// A direction Ψ, and what it is aimed at.

@@ -33,43 +33,24 @@ impl Selection {
     }
 }
 
-/// The probability of each target, up to a common factor: that of its light, then its share of the light's area. `None`
-/// where the probability depends on x.
-fn weights(selection: Selection, lights: &Lights) -> Option<Vec<f64>> {
-    let of_light = |light: usize| match selection {
-        Selection::Together => Some(lights.light_areas()[light]),
-        Selection::Uniform => Some(1.0),
-        Selection::Power => Some(lights.powers()[light]),
-        Selection::Contribution => None,
-    };
-    let targets = lights.light_of_target().iter().zip(lights.areas());
-    targets.map(|(&light, area)| Some(of_light(light)? * area / lights.light_areas()[light])).collect()
-}
-
-/// A discrete distribution over targets.
-pub trait Pick {
-    /// The target that a random word picks, and the word rescaled to a uniform number.
-    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R);
-    /// p_A over a target, in 1/m².
-    fn density<R: Real>(&self, target: R::Word) -> R;
-}
-
-/// The distribution over a single target. Nothing is looked up, so that all about the target is known before any sample:
-/// half the cost of one.
-#[derive(Clone, Copy, Debug)]
-pub struct Only {
-    density: f32,
-}
-
-impl Pick for Only {
-    #[inline(always)]
-    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
-        (R::Word::splat(0), unit(word))
+impl Selection {
+    /// Whether the probabilities depend on x.
+    pub fn depends_on_x(self) -> bool {
+        self == Self::Contribution
     }
 
-    #[inline(always)]
-    fn density<R: Real>(&self, _: R::Word) -> R {
-        R::splat(self.density)
+    /// The probability of each target, up to a common factor: that of its light, then its share of the light's `measure`.
+    /// `contributions` are the unoccluded irradiances of the targets at x, luminance, asked for where they count.
+    fn weights(self, lights: &Lights, measure: &[f64], contributions: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+        let whole = lights.sums(measure);
+        let of_light = match self {
+            Self::Together => return measure.to_vec(),
+            Self::Uniform => vec![1.0; whole.len()],
+            Self::Power => lights.powers().to_vec(),
+            Self::Contribution => lights.sums(&contributions()),
+        };
+        let share = |(&light, &m): (&usize, &f64)| if m > 0.0 { of_light[light] * m / whole[light] } else { 0.0 };
+        lights.light_of_target().iter().zip(measure).map(share).collect()
     }
 }
 
@@ -86,7 +67,7 @@ pub struct Picker {
     guide: Vec<u32>,
     /// How many bits of a word do not lead.
     trailing: u32,
-    /// p_A of each target: its probability over its area, in 1/m².
+    /// The probability of each target over its measure.
     density: Vec<f32>,
 }
 
@@ -104,26 +85,40 @@ const WORDS: u64 = 1 << 32;
 const FEW: usize = 16;
 
 impl Picker {
-    /// The distribution of `selection` over the targets of `lights`, of which there must be one; `None` where it depends
-    /// on x.
-    pub fn new(selection: Selection, lights: &Lights) -> Option<Self> {
-        let bounds = bounds(&weights(selection, lights)?);
+    /// The distribution of `selection` over the targets, points of a target being uniform in `measure`; it depends on x where
+    /// the measure or the selection does, which asks for `contributions` then.
+    pub fn new(
+        selection: Selection,
+        lights: &Lights,
+        measure: &[f64],
+        contributions: impl FnOnce() -> Vec<f64>,
+    ) -> Self {
+        Self::of(&selection.weights(lights, measure, contributions), measure)
+    }
+
+    /// The distribution over the area of the targets, the same for every x; `None` where the selection depends on x.
+    pub fn of_area(selection: Selection, lights: &Lights) -> Option<Self> {
+        (!selection.depends_on_x()).then(|| Self::new(selection, lights, lights.areas(), Vec::new))
+    }
+
+    /// The distribution with these weights, each target being of this measure. Where no weight is positive, a target of
+    /// density zero is picked.
+    fn of(weights: &[f64], measure: &[f64]) -> Self {
+        let bounds = bounds(weights);
         let width = |k: usize| bounds[k + 1] - bounds[k];
-        let density = lights.areas().iter().enumerate();
-        let density = density.map(|(k, area)| (width(k) as f64 / WORDS as f64 / area) as f32).collect();
+        let density = measure.iter().enumerate();
+        let of_words = |words: u64, m: f64| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
+        let density = density.map(|(k, &m)| of_words(width(k), m)).collect();
         let share =
             |k: usize| Share { first: bounds[k] as u32, target: k as u32, scale: (1.0 / width(k) as f64) as f32 };
-        let shares: Vec<Share> = (0..lights.targets()).filter(|&k| width(k) > 0).map(share).collect();
+        let mut shares: Vec<Share> = (0..weights.len()).filter(|&k| width(k) > 0).map(share).collect();
+        if shares.is_empty() {
+            shares.push(Share { first: 0, target: 0, scale: 1.0 / WORDS as f32 });
+        }
         let leading = usize::BITS - shares.len().leading_zeros();
         let trailing = u32::BITS - leading;
         let first_of = |bits: u32| shares.partition_point(|share| share.first <= bits << trailing) as u32 - 1;
-        Some(Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density })
-    }
-
-    /// The distribution, if there is a single target.
-    pub fn only(&self) -> Option<Only> {
-        let [density] = self.density[..] else { return None };
-        Some(Only { density })
+        Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density }
     }
 
     /// The share of a word, by trying them in order.
@@ -172,9 +167,13 @@ impl Picker {
     }
 }
 
-impl Pick for Picker {
+impl Picker {
+    /// The target that a random word picks, and the word rescaled to a uniform number.
     #[inline(always)]
-    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+    pub fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+        if let [only] = self.shares[..] {
+            return (R::Word::splat(only.target), unit(word));
+        }
         let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
         let [scale] = R::gather(
             share,
@@ -185,8 +184,12 @@ impl Pick for Picker {
         (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
     }
 
+    /// The probability of picking a target over its measure.
     #[inline(always)]
-    fn density<R: Real>(&self, target: R::Word) -> R {
+    pub fn density<R: Real>(&self, target: R::Word) -> R {
+        if let [only] = self.density[..] {
+            return R::splat(only);
+        }
         let [density] = R::gather(
             target,
             #[inline(always)]

@@ -12,10 +12,10 @@ use twoforms_estimator::strategy::{Draw, Strategy, Weighting};
 use twoforms_exact::{Facing, Light, Sight};
 
 const CLOSED: [Strategy; 10] = [
-    Strategy::HemisphereUniform,
-    Strategy::HemisphereCosine,
+    Strategy::from(Kind::HemisphereUniform),
+    Strategy::from(Kind::HemisphereCosine),
     Strategy::HemisphereTowardLights(Selection::Together),
-    Strategy::Area(Draw::Uniform, Selection::Together),
+    Strategy::from(Kind::AreaUniform),
     Strategy::Area(Draw::Uniform, Selection::Uniform),
     Strategy::Area(Draw::Uniform, Selection::Power),
     Strategy::Area(Draw::Uniform, Selection::Contribution),
@@ -51,7 +51,7 @@ fn room() {
         black_box(sight.variances(&CLOSED));
     });
     for weighting in [Weighting::Balance, Weighting::Power, Weighting::Optimal] {
-        let strategy = Strategy::Mis(weighting);
+        let strategy = Strategy::Mis(weighting, Team::default());
         per(&format!("irradiance and {strategy}"), &|sight| {
             black_box(sight.variance(strategy).ok());
         });

@@ -9,7 +9,7 @@
 
 use std::borrow::Borrow;
 use std::fmt;
-use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
 use fearless_simd::{
     Bytes, Level, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdFrom, SimdMask, SimdWiden, f32x8, f32x16, f64x8,
@@ -383,6 +383,14 @@ impl<S: Simd> Word for LaneWord<S> {
     fn wrapping_sub(self, other: Self) -> Self {
         Self(self.0 - other.0)
     }
+    #[inline(always)]
+    fn wrapping_mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+    #[inline(always)]
+    fn sum(self) -> u32 {
+        self.0.reduce_sum()
+    }
     /// Even and odd words are multiplied apart, in 64 bits.
     #[inline(always)]
     fn multiply_wide(self, factor: u32) -> (Self, Self) {
@@ -462,8 +470,22 @@ macro_rules! lane_by_lane {
     )*};
 }
 lane_by_lane!(Add add Lanes, Sub sub Lanes, Mul mul Lanes, Div div Lanes, BitXor bitxor LaneWord);
+lane_by_lane!(BitAnd bitand LaneWord, BitOr bitor LaneWord);
 lane_by_lane!(Add add LaneWide, Sub sub LaneWide, Mul mul LaneWide);
 lane_by_lane!(BitAnd bitand LaneMask, BitOr bitor LaneMask, BitAnd bitand WideMask, BitOr bitor WideMask);
+
+macro_rules! shifts {
+    ($($operation:ident $function:ident),*) => {$(
+        impl<S: Simd> $operation<u32> for LaneWord<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, bits: u32) -> Self {
+                Self(self.0.$function(bits))
+            }
+        }
+    )*};
+}
+shifts!(Shl shl, Shr shr);
 
 impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;

@@ -7,7 +7,7 @@
 
 use std::borrow::Borrow;
 use std::fmt::Debug;
-use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
 use crate::wide::{EIGHT, Eight, Wide};
 
@@ -22,7 +22,15 @@ pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + No
 }
 
 /// An unsigned 32-bit word per sample: random words, indices.
-pub trait Word: Copy + Debug + BitXor<Output = Self> {
+pub trait Word:
+    Copy
+    + Debug
+    + BitAnd<Output = Self>
+    + BitOr<Output = Self>
+    + BitXor<Output = Self>
+    + Shl<u32, Output = Self>
+    + Shr<u32, Output = Self>
+{
     /// The same word for every sample.
     fn splat(value: u32) -> Self;
     /// One word for each sample in order: first, first + 1, …, modulo 2³².
@@ -35,6 +43,10 @@ pub trait Word: Copy + Debug + BitXor<Output = Self> {
     fn wrapping_add(self, other: Self) -> Self;
     /// The difference modulo 2³².
     fn wrapping_sub(self, other: Self) -> Self;
+    /// The product modulo 2³².
+    fn wrapping_mul(self, other: Self) -> Self;
+    /// The sum of all samples' words modulo 2³².
+    fn sum(self) -> u32;
     /// The high and the low word of the product with a constant.
     fn multiply_wide(self, factor: u32) -> (Self, Self);
 }
@@ -143,6 +155,14 @@ impl Word for u32 {
     #[inline(always)]
     fn wrapping_sub(self, other: Self) -> Self {
         self.wrapping_sub(other)
+    }
+    #[inline(always)]
+    fn wrapping_mul(self, other: Self) -> Self {
+        self.wrapping_mul(other)
+    }
+    #[inline(always)]
+    fn sum(self) -> u32 {
+        self
     }
     #[inline(always)]
     fn multiply_wide(self, factor: u32) -> (Self, Self) {

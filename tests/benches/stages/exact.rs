@@ -11,10 +11,10 @@ use crate::{SCENE, cases};
 /// The irradiance alone, the variances that have a closed form, and one that needs cubature.
 pub fn benches(criterion: &mut Criterion<CpuTime>) {
     let stage = worlds::stage(SCENE);
-    let all = Strategy::with_exact_variance();
+    let all = Strategy::all();
     let closed: Vec<Strategy> =
         all.into_iter().filter(|s| !matches!(s, Strategy::Mis(_) | Strategy::Mixture(_))).collect();
-    let balance = [Strategy::Mis(Weighting::Balance)];
+    let balance = [Strategy::Mis(Weighting::Balance, Team::default())];
     let works: [(&str, &[Strategy]); 3] =
         [("irradiance", &[]), ("and closed variances", &closed), ("and mis/balance", &balance)];
     let mut group = criterion.benchmark_group("exact");

@@ -20,7 +20,7 @@ use crate::{SCENE, cases};
 const N: u32 = 1024;
 
 /// One from each formulation, measured with all instructions that the machine has.
-const BY_ALL: [Strategy; 2] = [Strategy::Area(Draw::Uniform, Selection::Together), Strategy::HemisphereCosine];
+const BY_ALL: [Strategy; 2] = [Strategy::from(Kind::AreaUniform), Strategy::from(Kind::HemisphereCosine)];
 
 /// An estimate of N samples.
 struct Secondary(Instructions);

@@ -1,13 +1,12 @@
 //! Painting an image: tiles by beams, or pixels ray by ray.
 
 use glam::DVec3;
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimator, NotFinite};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::NotFinite;
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, NotSampled, Prepared};
+use twoforms_estimator::strategy::{Kernel, Known, Prepared};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::view::{Effort, View};
@@ -46,17 +45,17 @@ pub(super) struct Surface<'w> {
 }
 
 impl<'a> Painter<'a> {
-    pub(super) fn new(rendering: &'a Rendering, world: &'a World, camera: &'a Camera) -> Result<Self, NotSampled> {
+    pub(super) fn new(rendering: &'a Rendering, world: &'a World, camera: &'a Camera) -> Self {
         let key = |name: &str| Key::new([rendering.seed].into_iter().chain(Key::words_of(name)));
         let names = format!("{}\n{}", rendering.strategy.density_name(), rendering.sampler);
-        Ok(Self {
+        Self {
             rendering,
             world,
             camera,
-            prepared: rendering.strategy.prepare(&world.lights)?,
+            prepared: rendering.strategy.prepare(&world.lights),
             camera_key: key("camera"),
             light_key: key(&names),
-        })
+        }
     }
 
     /// The pixels of a tile that lie in the crop, row by row: by beams, or where those see too much by beams through its
@@ -185,8 +184,8 @@ struct Secondary {
 impl Kernel for Secondary {
     type Output = Result<([f64; 3], u64), NotFinite>;
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        let estimate = estimator.secondary(self.n, self.stream)?;
+    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
+        let estimate = estimator.secondary(self.stream)?;
         Ok((estimate.value, estimate.rays))
     }
 }
@@ -242,7 +241,7 @@ mod tests {
             let auto = viewpoint::auto(&world.scene.mesh);
             let camera = world.scene.cameras.first().or(auto.as_ref()).expect("a camera");
             for strategy in Strategy::all() {
-                let rendering = rendering(strategy, strategy != Strategy::HemisphereUniform);
+                let rendering = rendering(strategy, strategy != Strategy::from(Kind::HemisphereUniform));
                 let painter = Painter::new(&rendering, &world, camera).expect("a strategy that can be sampled");
                 let beams = rendering.run(&world, camera, &|_| ()).expect("finite samples");
                 let rays = rendering.crop.pixels().map(|[x, y]| painter.pixel(x, y).expect("finite samples"));

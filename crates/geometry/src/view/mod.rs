@@ -97,6 +97,13 @@ impl<'g> View<'g> {
         self.sights.as_deref()
     }
 
+    /// Does something with the corners of a target, counter-clockwise from its front, in metres in the frame of x; nothing
+    /// where x is not on a side that emits.
+    pub fn facing<T>(&self, target: u32, f: impl FnOnce(&[DVec3]) -> T) -> Option<T> {
+        let facet = self.wide(target);
+        facet.faces_x().then(|| f(facet.corners()))
+    }
+
     fn outline(&self, target: u32) -> Cone {
         match &self.sights {
             Some(sights) => *sights[target as usize].outline(),

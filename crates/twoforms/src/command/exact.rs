@@ -27,7 +27,7 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     let bar = progress::bar(places.len() as u64 * u64::from(steps), "receivers", &args.run);
     let progress = |done| bar.inc(done);
     let results = match &args.sweep {
-        None => exactly(&world, &places, &strategies.unwrap_or_else(Strategy::with_exact_variance), &progress),
+        None => exactly(&world, &places, &strategies.unwrap_or_else(Strategy::all), &progress),
         Some(sweep) => swept(&world, &places, &strategies.unwrap_or_else(default_strategies), sweep, &progress),
     };
     bar.finish_and_clear();

@@ -1,0 +1,141 @@
+//! Filling a batch with random numbers: samples of one estimate in a row, or of many estimates side by side.
+
+use std::marker::PhantomData;
+
+use twoforms_geometry::lanes::{Instructions, Kernel};
+use twoforms_geometry::real::{Real, Word};
+
+use super::{Place, Sampler, Spread};
+use crate::numbers::{BATCH, Numbers};
+use crate::philox::philox4x32_10;
+use crate::xi::{Draws, Key};
+
+/// Estimates that lie side by side, at most.
+pub const ROW: usize = 16;
+
+/// The random numbers of one estimate, as a sampler spreads them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stream {
+    /// How they are spread.
+    pub sampler: Sampler,
+    /// Which they are.
+    pub draws: Draws,
+    /// N: samples of the estimate.
+    pub n: u32,
+}
+
+impl Stream {
+    /// Fills the batch with ξ of `length` samples from `first` on.
+    pub fn fill(&self, instructions: Instructions, first: u32, length: usize, numbers: &mut Numbers) {
+        self.sampler.run(Along { stream: self, instructions, first, length, numbers });
+    }
+
+    /// ξ of one sample that takes so many pairs, at the batch's beginning.
+    pub fn xi(&self, index: u32, pairs: usize) -> Numbers {
+        let mut numbers = Numbers::new(pairs);
+        self.fill(Instructions::SCALAR, index, 1, &mut numbers);
+        numbers
+    }
+}
+
+/// Samples of many estimates side by side, each with a stream and an index of its own.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Who asks.
+    pub key: Key,
+    /// N of each estimate.
+    pub n: u32,
+    /// The streams.
+    pub streams: [[u32; ROW]; 2],
+    /// Index of each one's first sample.
+    pub first: [u32; ROW],
+}
+
+impl Row {
+    /// Fills the batch with ξ of these samples, then of the next index of each, and so on, for `length` indices: sample k
+    /// of a row of as many as the instructions hold side by side, and the i-th index, lie at i × (that many) + k.
+    pub fn fill(&self, sampler: Sampler, instructions: Instructions, length: usize, numbers: &mut Numbers) {
+        sampler.run(Across { row: self, instructions, length, numbers });
+    }
+}
+
+/// Something to do with a sampler, whichever it is.
+pub(super) trait Fill {
+    fn run<S: Spread>(self);
+}
+
+struct Along<'s, 'n> {
+    stream: &'s Stream,
+    instructions: Instructions,
+    first: u32,
+    length: usize,
+    numbers: &'n mut Numbers,
+}
+
+struct Across<'s, 'n> {
+    row: &'s Row,
+    instructions: Instructions,
+    length: usize,
+    numbers: &'n mut Numbers,
+}
+
+/// A way to fill with its sampler chosen.
+struct By<F, S>(F, PhantomData<S>);
+
+impl Fill for Along<'_, '_> {
+    fn run<S: Spread>(self) {
+        self.instructions.run(By(self, PhantomData::<S>));
+    }
+}
+
+impl Fill for Across<'_, '_> {
+    fn run<S: Spread>(self) {
+        self.instructions.run(By(self, PhantomData::<S>));
+    }
+}
+
+/// Random words of a stream and pair: Philox 4×32-10 of the two.
+#[inline(always)]
+fn seed<W: Word>(key: Key, [one, other]: [W; 2], pair: u32) -> [W; 4] {
+    philox4x32_10([W::splat(pair), W::splat(0), one, other], key.0)
+}
+
+impl<S: Spread> Kernel for By<Along<'_, '_>, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, length, numbers, .. } = self.0;
+        for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
+            let pair = pair as u32;
+            let [a, b, c, d] = seed(*key, *stream, pair);
+            let seed = [R::Word::splat(a), R::Word::splat(b), R::Word::splat(c), R::Word::splat(d)];
+            for offset in (0..length).step_by(R::LANES) {
+                let index = R::Word::counting(first + offset as u32);
+                let [one, other] = S::pair::<R>(&Place { index, n: *n, pair, seed });
+                one.store(&mut u[offset..]);
+                other.store(&mut v[offset..]);
+            }
+        }
+    }
+}
+
+impl<S: Spread> Kernel for By<Across<'_, '_>, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Across { row: Row { key, n, streams, first }, length, numbers, .. } = self.0;
+        let (streams, first) = ([R::Word::load(&streams[0]), R::Word::load(&streams[1])], R::Word::load(first));
+        for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
+            let pair = pair as u32;
+            let seed = seed(*key, streams, pair);
+            for (k, offset) in (0..BATCH).step_by(R::LANES).take(length).enumerate() {
+                let index = first.wrapping_add(R::Word::splat(k as u32));
+                let [one, other] = S::pair::<R>(&Place { index, n: *n, pair, seed });
+                one.store(&mut u[offset..]);
+                other.store(&mut v[offset..]);
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Strategies with what they need of a scene, and of one x.
+
+use super::{AREA, Strategy, Team, Weighting};
+use crate::combination::{ControlVariate, Mis, Mixture, Ratio, Resampled, Shadow, Split};
+use crate::density::{AreaOnLights, ByArea, Density, OnLights, Ready};
+use crate::estimator::{Estimator, Single};
+use crate::formulation::Formulation;
+use crate::lights::Lights;
+use crate::query::Query;
+use crate::technique::{Prepared as PreparedTechnique, SingleKernel, Technique};
+use twoforms_geometry::view::View;
+
+/// A strategy with what it needs of one scene.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    strategy: Strategy,
+    techniques: Vec<PreparedTechnique>,
+    points: AreaOnLights,
+}
+
+/// Something to do with an estimator, whichever it is: matched once, then wholly inlined.
+pub trait Kernel {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run<E: Estimator>(self, estimator: &E) -> Self::Output;
+}
+
+/// What is known of the light at x beforehand, for strategies that use it.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// α_i of the techniques of the default team with optimal weights, RGB.
+    pub alpha: Option<[[f64; 3]; 2]>,
+}
+
+impl Strategy {
+    /// Builds what the strategy needs once per scene. The scene must have a light.
+    pub fn prepare(self, lights: &Lights) -> Prepared {
+        let techniques = self.techniques().iter().map(|technique| technique.prepare(lights)).collect();
+        Prepared { strategy: self, techniques, points: AreaOnLights::prepare(lights, AREA.selection) }
+    }
+
+    /// Whether it uses the α that are known beforehand: [`Known::alpha`].
+    pub fn needs_alpha(self) -> bool {
+        matches!(self, Self::Mis(Weighting::Optimal, _))
+    }
+
+    /// Why the strategy can't be sampled at all, if it can't.
+    pub fn impossible(self) -> Option<String> {
+        match self {
+            Self::Mis(Weighting::Optimal, team) if team != Team::default() => {
+                Some(format!("\"{self}\" needs the α of its team, which are known for {AREA} with hemisphere/cosine alone"))
+            }
+            _ => None,
+        }
+    }
+
+    /// The techniques that it draws samples of.
+    pub fn techniques(self) -> Vec<Technique> {
+        match self {
+            Self::Single(technique) => vec![technique],
+            Self::Mis(_, team) => team.members().map(|member| member.technique).collect(),
+            Self::Mixture(_, pair) => pair.to_vec(),
+            Self::Resampled(_) | Self::Ratio | Self::ControlVariate => vec![AREA],
+        }
+    }
+}
+
+impl Prepared {
+    /// Which strategy it is.
+    pub fn strategy(&self) -> Strategy {
+        self.strategy
+    }
+
+    /// Whether each x needs an estimator of its own, so that a view of many x has none.
+    pub fn depends_on_x(&self) -> bool {
+        let by_itself = matches!(self.strategy, Strategy::Ratio | Strategy::ControlVariate) || self.strategy.needs_alpha();
+        by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
+    }
+
+    /// Runs the kernel with this strategy's estimator at x.
+    ///
+    /// # Panics
+    /// When the strategy needs α and `known` has none.
+    pub fn run<'a, K: Kernel>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known, kernel: K) -> K::Output {
+        let at = |k: usize| self.techniques[k].at(view, query);
+        match self.strategy {
+            Strategy::Single(_) => at(0).run(OfSingle(kernel)),
+            Strategy::Mis(weighting, team) => {
+                let team = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
+                let alpha = known.alpha.iter().flatten().map(|alpha| alpha.map(|alpha| alpha as f32));
+                let alpha = if weighting == Weighting::Optimal { alpha.collect() } else { Vec::new() };
+                assert!(weighting != Weighting::Optimal || !alpha.is_empty(), "optimal weights without α");
+                kernel.run(&Mis { view, query, team, weighting, alpha })
+            }
+            Strategy::Mixture(share, _) => {
+                kernel.run(&Mixture { view, query, pair: [at(0), at(1)], split: Split::new(share) })
+            }
+            Strategy::Resampled(candidates) => {
+                kernel.run(&Resampled { view, query, density: self.points(view, query), candidates })
+            }
+            Strategy::Ratio => kernel.run(&Ratio { shadow: self.shadow(view, query) }),
+            Strategy::ControlVariate => kernel.run(&ControlVariate { shadow: self.shadow(view, query) }),
+        }
+    }
+
+    /// Runs the kernel with the estimator of each technique that the strategy draws samples of.
+    pub fn run_singles<'a, K: SingleKernel + Clone>(
+        &'a self,
+        view: &'a View<'a>,
+        query: &'a Query<'a>,
+        kernel: &K,
+    ) -> Vec<K::Output> {
+        self.techniques.iter().map(|technique| technique.at(view, query).run(kernel.clone())).collect()
+    }
+
+    fn points(&self, view: &View, query: &Query) -> OnLights<'_, ByArea> {
+        self.points.at(view, query.lights())
+    }
+
+    fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {
+        Shadow { view, query, density: self.points(view, query), unoccluded: query.unoccluded(view) }
+    }
+}
+
+/// A kernel for any estimator, for that of a technique.
+struct OfSingle<K>(K);
+
+impl<K: Kernel> SingleKernel for OfSingle<K> {
+    type Output = K::Output;
+
+    fn run<F: Formulation, D: Density<F::Measure>>(self, single: &Single<F, D>) -> K::Output {
+        self.0.run(single)
+    }
+}

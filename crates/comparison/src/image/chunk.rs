@@ -2,22 +2,24 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use twoforms_estimator::density::Density;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::moments::Moments;
 use twoforms_estimator::rgb::Rgb;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::lanes::Kernel;
 use twoforms_geometry::real::{Mask, Real, Word};
-use twoforms_geometry::vector::Vector;
+use twoforms_geometry::vector::{Vector, round};
 use twoforms_geometry::view::Vista;
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 /// Camera samples that go together.
 pub(super) const SIZE: usize = 512;
 /// The pane of a sample that meets nothing.
-pub(super) const NOTHING: u32 = u32::MAX;
+const NOTHING: u32 = u32::MAX;
 
 /// Some camera samples of a tile. Arrays have one entry a sample.
 pub(super) struct Chunk {
@@ -86,6 +88,15 @@ impl Chunk {
         self.len + more <= SIZE
     }
 
+    /// Holds directions from the eye, in its frame, of so many samples: as many as there is room for at most.
+    pub(super) fn aim(&mut self, directions: &[DVec3]) {
+        self.clear();
+        self.len = directions.len();
+        for (k, &direction) in directions.iter().enumerate() {
+            [self.toward[0][k], self.toward[1][k], self.toward[2][k]] = round(direction);
+        }
+    }
+
     /// Adds camera samples of a pixel with this number in the image and this corner in the tile.
     pub(super) fn push(&mut self, pixel: usize, samples: Range<u32>, number: u32, [x, y]: [u32; 2]) {
         let piece = Piece { pixel, samples, start: self.len };
@@ -100,10 +111,12 @@ impl Chunk {
     /// The panes that are met, once each.
     pub(super) fn panes(&self) -> Vec<u32> {
         let mut met: Vec<u32> = Vec::new();
+        let mut last = NOTHING;
         for &pane in &self.pane[..self.len] {
-            if pane != NOTHING && !met.contains(&pane) {
+            if pane != last && pane != NOTHING && !met.contains(&pane) {
                 met.push(pane);
             }
+            last = pane;
         }
         met
     }
@@ -119,8 +132,8 @@ impl Chunk {
     }
 
     /// The pane that a sample meets.
-    pub(super) fn pane(&self, k: usize) -> u32 {
-        self.pane[k]
+    pub(super) fn pane(&self, k: usize) -> Option<usize> {
+        (self.pane[k] != NOTHING).then_some(self.pane[k] as usize)
     }
 
     /// The stream of a sample.
@@ -142,10 +155,9 @@ impl Chunk {
     }
 }
 
-/// Where the camera samples look, and what they meet.
-pub(super) struct Look<'c> {
+/// Where the camera samples look.
+pub(super) struct Aim<'c> {
     pub(super) chunk: &'c mut Chunk,
-    pub(super) vista: &'c Vista,
     /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
     pub(super) axes: [[f32; 3]; 3],
     pub(super) key: Key,
@@ -153,7 +165,7 @@ pub(super) struct Look<'c> {
     pub(super) spread: bool,
 }
 
-impl Kernel for Look<'_> {
+impl Kernel for Aim<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -169,13 +181,67 @@ impl Kernel for Look<'_> {
             };
             let (x, y) = (R::load(&chunk.corner[0][k..]) + dx, R::load(&chunk.corner[1][k..]) + dy);
             let toward = Vector::<R>::splat(first) + Vector::splat(right) * x + Vector::splat(down) * y;
-            let (glimpse, some) = self.vista.look(toward).parts();
             toward.x.store(&mut chunk.toward[0][k..]);
             toward.y.store(&mut chunk.toward[1][k..]);
             toward.z.store(&mut chunk.toward[2][k..]);
+        }
+    }
+}
+
+/// What is met in the directions of a chunk.
+pub(super) struct Look<'c> {
+    pub(super) chunk: &'c mut Chunk,
+    pub(super) vista: &'c Vista,
+}
+
+impl Kernel for Look<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Self { chunk, vista } = self;
+        for k in (0..chunk.len).step_by(R::LANES) {
+            let [x, y, z] = chunk.toward.each_ref();
+            let (glimpse, some) = vista.look(Vector::new(R::load(&x[k..]), R::load(&y[k..]), R::load(&z[k..]))).parts();
             glimpse.per_t.store(&mut chunk.per_t[k..]);
             R::select_word(some, glimpse.pane, R::Word::splat(NOTHING)).store(&mut chunk.pane[k..]);
         }
+    }
+}
+
+/// Adds the camera samples of each piece to what their pixels come to; answers with the first piece whose value is not
+/// finite.
+pub(super) struct AddUp<'c> {
+    pub(super) chunk: &'c Chunk,
+    pub(super) sums: &'c mut [Sum],
+}
+
+/// What the samples of one pixel come to so far.
+#[derive(Clone, Default)]
+pub(super) struct Sum {
+    /// Of the values, RGB.
+    pub(super) channels: [Moments; 3],
+    /// Rays asked for.
+    pub(super) rays: u64,
+}
+
+impl<'c> Kernel for AddUp<'c> {
+    type Output = Option<&'c Piece>;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Option<&'c Piece> {
+        let Self { chunk, sums } = self;
+        for piece in &chunk.pieces {
+            let (sum, places) = (&mut sums[piece.pixel], piece.places());
+            for c in 0..3 {
+                sum.channels[c] = sum.channels[c] + Moments::by::<R::Wide>(&chunk.value[c][places.clone()]);
+            }
+            sum.rays += chunk.rays(places.clone()) + places.len() as u64;
+            if !sum.channels.iter().all(|moments| moments.mean.is_finite()) {
+                return Some(piece);
+            }
+        }
+        None
     }
 }
 

@@ -9,10 +9,12 @@ use twoforms_estimator::sampler::{Sampler, Stream};
 use twoforms_estimator::strategy::{Kernel, Known, Prepared};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
+use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_scene::Camera;
 
 use super::beam::Beam;
+use super::chunk::Chunk;
 use super::{Centre, Crop, Pixel, PixelFilter, Rendering};
 use crate::error::BrokenPixel;
 use crate::viewpoint;
@@ -60,22 +62,22 @@ impl<'a> Painter<'a> {
 
     /// The pixels of a tile that lie in the crop, row by row: by beams, or where those see too much by beams through its
     /// quarters, and at last by a ray for each sample. How is decided by the tile alone.
-    pub(super) fn tile(&self, tile: Crop) -> Result<Vec<Pixel>, BrokenPixel> {
+    pub(super) fn tile(&self, tile: Crop, chunk: &mut Chunk) -> Result<Vec<Pixel>, BrokenPixel> {
         let inside = tile.within(self.rendering.crop);
         if let Some(beam) = Beam::new(self, tile) {
-            return beam.pixels(inside);
+            return beam.pixels(inside, chunk);
         }
         if tile.width() == 1 {
             return inside.pixels().map(|[x, y]| self.pixel(x, y)).collect();
         }
-        self.quarters(tile, inside)
+        self.quarters(tile, inside, chunk)
     }
 
-    fn quarters(&self, tile: Crop, inside: Crop) -> Result<Vec<Pixel>, BrokenPixel> {
+    fn quarters(&self, tile: Crop, inside: Crop, chunk: &mut Chunk) -> Result<Vec<Pixel>, BrokenPixel> {
         let mut pixels = vec![Pixel::default(); inside.width() as usize * inside.height() as usize];
         for quarter in tile.quarters().filter(|quarter| quarter.meets(inside)) {
             let part = quarter.within(inside);
-            for ([x, y], pixel) in part.pixels().zip(self.tile(quarter)?) {
+            for ([x, y], pixel) in part.pixels().zip(self.tile(quarter, chunk)?) {
                 pixels[((y - inside.y0) * inside.width() + x - inside.x0) as usize] = pixel;
             }
         }
@@ -167,9 +169,9 @@ impl<'a> Painter<'a> {
     pub(super) fn centre_of(&self, seen: &Seen) -> Centre {
         let toward: DVec3 = seen.position - self.camera.position;
         Centre {
-            position: seen.position.to_array(),
-            normal: seen.normal.to_array(),
-            depth: toward.dot(self.camera.forward),
+            position: round(seen.position),
+            normal: round(seen.normal),
+            depth: toward.dot(self.camera.forward) as f32,
             albedo: self.world.scene.albedo(seen.triangle),
         }
     }

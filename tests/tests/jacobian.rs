@@ -87,7 +87,8 @@ fn through_both(case: &Case, selection: Selection) -> Comparison {
     let query = Query::irradiance(&world.lights);
     let picker = picker(&world.lights, selection);
     let lights = OnLights { picker: &picker };
-    let draws = Samples::new(SEED, &case.place, Strategy::from((Kind::AreaUniform, selection)), Sampler::Independent, N);
+    let draws =
+        Samples::new(SEED, &case.place, Strategy::from((Kind::AreaUniform, selection)), Sampler::Independent, N);
     Comparison::of((0..N).filter_map(|index| {
         let (Sample { at: y, pdf: p }, some) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
         let xy = Segment::to(&y);

@@ -191,7 +191,8 @@ fn awkward_receivers_get_their_limit_or_a_reason() {
 #[test]
 fn near_a_light_there_is_a_limit_and_on_it_none_of_its_light() {
     let world = with_wall();
-    let strategies: Vec<Strategy> = vec!["area/uniform".parse().expect("a name"), Strategy::from(Kind::HemisphereCosine)];
+    let strategies: Vec<Strategy> =
+        vec!["area/uniform".parse().expect("a name"), Strategy::from(Kind::HemisphereCosine)];
     let at = |y: f64| exactly::at(&world, &place("x", DVec3::new(0.0, y, 0.0), DVec3::Y), &strategies).light;
     let on = at(1.0);
     assert_eq!(on.irradiance.expect("E").luminance, 0.0);

@@ -93,7 +93,11 @@ fn evidence(receiver: usize, emission: f64, measured: &[(&Plan, Measurement)], a
             signed: strategy.can_be_negative(),
             biased: strategy.is_biased(),
         };
-        if sampler == Sampler::Independent && !strategy.is_biased() { evidence } else { evidence.of_replicates(&replicates(&rows, emission)) }
+        if sampler == Sampler::Independent && !strategy.is_biased() {
+            evidence
+        } else {
+            evidence.of_replicates(&replicates(&rows, emission))
+        }
     };
     pairs(measured).into_iter().map(of).collect()
 }

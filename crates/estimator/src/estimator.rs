@@ -1,5 +1,7 @@
 //! Estimators of the light that x receives, in the lecture's words: primary with one sample, secondary with the mean of N.
 
+use std::ops::Range;
+
 use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
@@ -7,7 +9,7 @@ use twoforms_geometry::view::{Vantage, View};
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 use crate::density::Density;
-use crate::estimate::{Estimate, NotFinite, Range};
+use crate::estimate::{self, Estimate, NotFinite};
 use crate::formulation::Formulation;
 use crate::measure::Sample;
 use crate::moments::Moments;
@@ -73,7 +75,19 @@ pub trait Estimator {
     where
         Self: Sized,
     {
-        instructions.run(Secondary { estimator: self, instructions, stream })
+        instructions.run(Secondary { estimator: self, instructions, stream, samples: 0..stream.n })
+    }
+
+    /// The mean of some of the N samples.
+    ///
+    /// # Errors
+    /// When a sample is not finite.
+    fn part(&self, stream: Stream, samples: Range<u32>) -> Result<Estimate, NotFinite>
+    where
+        Self: Sized,
+    {
+        let instructions = Instructions::best();
+        instructions.run(Secondary { estimator: self, instructions, stream, samples })
     }
 }
 
@@ -126,6 +140,7 @@ struct Secondary<'e, E> {
     estimator: &'e E,
     instructions: Instructions,
     stream: Stream,
+    samples: Range<u32>,
 }
 
 impl<E: Estimator> Kernel for Secondary<'_, E> {
@@ -133,11 +148,12 @@ impl<E: Estimator> Kernel for Secondary<'_, E> {
 
     #[inline(always)]
     fn run<R: Real>(self) -> Self::Output {
-        let (mut estimate, n) = (Estimate::default(), self.stream.n);
+        let Range { start: first, end } = self.samples;
+        let mut estimate = Estimate::default();
         let mut batch = Batch::new(self.estimator.pairs());
         let mut divisor = [0.0; 3];
-        for start in (0..n).step_by(BATCH) {
-            let length = BATCH.min((n - start) as usize);
+        for start in (first..end).step_by(BATCH) {
+            let length = BATCH.min((end - start) as usize);
             (batch.length, batch.rays) = (length, 0);
             self.stream.fill(self.instructions, start, length, &mut batch.numbers);
             for offset in (0..length).step_by(R::LANES) {
@@ -148,7 +164,7 @@ impl<E: Estimator> Kernel for Secondary<'_, E> {
                 batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..length]));
             }
         }
-        estimate.value = self.estimator.estimate(estimate.value, divisor, n);
+        estimate.value = self.estimator.estimate(estimate.value, divisor, end - first);
         Ok(estimate)
     }
 }
@@ -231,7 +247,7 @@ impl Estimate {
         for c in 0..3 {
             self.value[c] += sums[c].sum();
         }
-        self.range = Range { low: least(low), high: -least(zero - high) };
+        self.range = estimate::Range { low: least(low), high: -least(zero - high) };
         self.luminance = self.luminance + moments;
         self.rays += batch.rays;
         Ok(())

@@ -1,16 +1,15 @@
 //! Beams: the samples of a tile share what the eye sees through it, and what each surface there sees of the lights.
 
 use glam::DVec3;
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimator, NotFinite};
-use twoforms_estimator::formulation::Formulation;
-use twoforms_estimator::strategy::Kernel;
+use twoforms_estimator::estimate::NotFinite;
+use twoforms_estimator::estimator::Estimator;
+use twoforms_estimator::strategy::{Kernel, Known};
 use twoforms_geometry::frame::Frame;
-use twoforms_geometry::lanes::{self, Instructions};
+use twoforms_geometry::lanes;
 use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{View, Vista};
 
-use super::chunk::{self, AddUp, Aim, Chunk, LightSamples, Look, Piece, Receive, Sum};
+use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Receive, Samples, Sum};
 use super::face::Face;
 use super::painter::{Painter, Surface};
 use super::{Centre, Crop, Pixel, PixelFilter, tile};
@@ -92,7 +91,7 @@ impl<'a> Beam<'a> {
         sums: &mut [Sum],
     ) -> Result<(), BrokenPixel> {
         let spread = self.painter.rendering.filter == PixelFilter::Box;
-        lanes::run(Aim { chunk, axes: self.axes.map(round), key: self.painter.camera_key, spread });
+        lanes::run(Aim { chunk, axes: self.axes.map(round), samples: self.painter.camera_samples(), spread });
         lanes::run(Look { chunk, vista: &self.vista });
         for pane in chunk.panes() {
             let stage = stages[pane as usize].get_or_insert_with(|| self.stage(pane as usize));
@@ -114,11 +113,9 @@ impl<'a> Beam<'a> {
             }
         }
         let Some(query) = &stage.surface.query else { return Ok(()) };
-        let rendering = self.painter.rendering;
         if let Some(Lit { view, along }) = &stage.lit {
-            let light =
-                LightSamples { sampler: rendering.sampler, key: self.painter.light_key, n: rendering.light_samples };
-            self.painter.prepared.run(view, query, Lighting { chunk, light, pane, along: *along });
+            let light = self.painter.light_samples();
+            self.painter.prepared.run(view, query, &Known::default(), Lighting { chunk, light, pane, along: *along });
             return Ok(());
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
@@ -138,7 +135,8 @@ impl<'a> Beam<'a> {
         let footprint: Vec<DVec3> = pane.outline.iter().map(local).collect();
         let x = self.eye.localize(seen.position);
         let along = [DVec3::X, DVec3::Y].map(|axis| pane.coordinate(self.eye.to_local(frame.to_world(axis)), x));
-        let view = View::over(&self.painter.world.geometry, frame, &footprint);
+        let shared = !self.painter.prepared.depends_on_x();
+        let view = shared.then(|| View::over(&self.painter.world.geometry, frame, &footprint)).flatten();
         Stage { surface: self.painter.surface(&seen), lit: view.map(|view| Lit { view, along }) }
     }
 
@@ -186,7 +184,7 @@ impl<'a> Beam<'a> {
         one_by_one.unwrap_or_else(|| NotFinite {
             index: 0,
             value: chunk.value.each_ref().map(|channel| channel[k] as f32),
-            words: self.painter.light_stream(chunk.stream(k)).xi(0).words(),
+            words: self.painter.words(chunk.stream(k)),
         })
     }
 }
@@ -194,7 +192,7 @@ impl<'a> Beam<'a> {
 /// [`Receive`] with its estimator yet to be chosen.
 struct Lighting<'c> {
     chunk: &'c mut Chunk,
-    light: LightSamples,
+    light: Samples,
     pane: u32,
     along: [[f32; 3]; 2],
 }
@@ -202,8 +200,8 @@ struct Lighting<'c> {
 impl Kernel for Lighting<'_> {
     type Output = ();
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) {
+    fn run<E: Estimator>(self, estimator: &E) {
         let Self { chunk, light, pane, along } = self;
-        Instructions::best().run(Receive { chunk, estimator, light, pane, along });
+        light.instructions.run(Receive { chunk, estimator, light, pane, along });
     }
 }

@@ -3,14 +3,13 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use twoforms_estimator::density::Density;
 use twoforms_estimator::estimator::Estimator;
-use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
+use twoforms_estimator::numbers::{BATCH, Numbers};
 use twoforms_estimator::rgb::Rgb;
-use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::sampler::{ROW, Row, Sampler};
 use twoforms_estimator::xi::Key;
-use twoforms_geometry::lanes::Kernel;
+use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::vector::{Vector, round};
 use twoforms_geometry::view::Vista;
@@ -141,6 +140,18 @@ impl Chunk {
         [self.streams[0][k], self.streams[1][k]]
     }
 
+    /// Which random numbers the camera samples from `k` on take: each pixel has a stream, and its samples follow each other
+    /// in it.
+    #[inline(always)]
+    fn row(&self, k: usize, samples: &Samples) -> Row {
+        let (mut streams, mut first) = ([[0; ROW]; 2], [0; ROW]);
+        for lane in 0..ROW.min(SIZE - k) {
+            streams[0][lane] = self.streams[0][k + lane];
+            first[lane] = self.streams[1][k + lane] * samples.each;
+        }
+        Row { key: samples.key, n: samples.spp * samples.each, streams, first }
+    }
+
     /// Adds to the value of a sample, RGB, and to its rays.
     pub(super) fn add(&mut self, k: usize, value: [f64; 3], rays: u32) {
         for c in 0..3 {
@@ -160,7 +171,7 @@ pub(super) struct Aim<'c> {
     pub(super) chunk: &'c mut Chunk,
     /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
     pub(super) axes: [[f32; 3]; 3],
-    pub(super) key: Key,
+    pub(super) samples: Samples,
     /// Whether samples are spread over the pixel.
     pub(super) spread: bool,
 }
@@ -172,10 +183,11 @@ impl Kernel for Aim<'_> {
     fn run<R: Real>(self) {
         let [first, right, down] = self.axes;
         let chunk = self.chunk;
+        let (samples, mut numbers) = (&self.samples, Numbers::new(1));
         for k in (0..chunk.len).step_by(R::LANES) {
-            let streams = [R::Word::load(&chunk.streams[0][k..]), R::Word::load(&chunk.streams[1][k..])];
             let [dx, dy] = if self.spread {
-                Sampler::Independent.across::<R>(self.key, streams, 0).uv()
+                samples.fill(&chunk.row(k, samples), 1, &mut numbers);
+                numbers.from(0).xi::<R>(0).uv()
             } else {
                 [R::splat(0.5), R::splat(0.5)]
             };
@@ -246,33 +258,73 @@ impl<'c> Kernel for AddUp<'c> {
 }
 
 /// The light samples of the camera samples that meet one pane, from where they meet it.
-pub(super) struct Receive<'c, 'a, F, D> {
+pub(super) struct Receive<'c, E> {
     pub(super) chunk: &'c mut Chunk,
-    pub(super) estimator: &'c Estimator<'a, F, D>,
-    pub(super) light: LightSamples,
+    pub(super) estimator: &'c E,
+    pub(super) light: Samples,
     pub(super) pane: u32,
     /// The vectors that give the coordinates of a point of the pane from its direction.
     pub(super) along: [[f32; 3]; 2],
 }
 
-/// How lights are sampled at each camera sample.
+/// The samples of a pixel, shared out among its camera samples.
 #[derive(Clone, Copy)]
-pub(super) struct LightSamples {
+pub(super) struct Samples {
     pub(super) sampler: Sampler,
     pub(super) key: Key,
-    pub(super) n: u32,
+    /// How many of the pixel's samples each camera sample has.
+    pub(super) each: u32,
+    /// Camera samples of a pixel.
+    pub(super) spp: u32,
+    pub(super) instructions: Instructions,
 }
 
-/// Numbers side by side, at most.
-const ROOM: usize = 2 * EIGHT;
+impl Samples {
+    fn fill(&self, row: &Row, length: usize, numbers: &mut Numbers) {
+        row.fill(self.sampler, self.instructions, length, numbers);
+    }
+}
 
-impl<F: Formulation, D: Density<F::Measure>> Kernel for Receive<'_, '_, F, D> {
+/// Sums of colours by lane, in binary64.
+struct Sums<R: Real>([[R::Wide; 2]; 3]);
+
+impl<R: Real> Sums<R> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self([[R::Wide::splat(0.0); 2]; 3])
+    }
+
+    #[inline(always)]
+    fn add(&mut self, Rgb(value): Rgb<R>, weight: Option<R>) {
+        for c in 0..3 {
+            let [low, high] = weight.map_or(value[c], |weight| value[c] * weight).widen();
+            self.0[c] = [self.0[c][0] + low, self.0[c][1] + high];
+        }
+    }
+
+    #[inline(always)]
+    fn by_lane(&self) -> [[f64; 3]; ROW] {
+        let mut lanes = [[0.0; 3]; ROW];
+        for c in 0..3 {
+            let mut channel = [0.0; ROW];
+            self.0[c][0].store(&mut channel[..EIGHT]);
+            self.0[c][1].store(&mut channel[EIGHT..]);
+            for lane in 0..ROW {
+                lanes[lane][c] = channel[lane];
+            }
+        }
+        lanes
+    }
+}
+
+impl<E: Estimator> Kernel for Receive<'_, E> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real>(self) {
         let Self { chunk, estimator, light, pane, along: [u, v] } = self;
-        let share = R::Wide::splat(1.0 / f64::from(light.n));
+        let mut numbers = Numbers::new(estimator.pairs());
+        let at_once = BATCH / R::LANES;
         for k in (0..chunk.len).step_by(R::LANES) {
             let inside = R::below(R::Word::counting(k as u32), R::Word::splat(chunk.len as u32));
             let wanted = inside & R::same(R::Word::load(&chunk.pane[k..]), R::Word::splat(pane));
@@ -284,26 +336,29 @@ impl<F: Formulation, D: Density<F::Measure>> Kernel for Receive<'_, '_, F, D> {
             let (toward, t) = (Vector::new(x, y, z), R::one() / R::load(&chunk.per_t[k..]));
             let start = Vector::new(Vector::splat(u).dot(toward) * t, Vector::splat(v).dot(toward) * t, R::zero());
             let from = estimator.view().from_points(start).only(wanted);
-            let streams = [R::Word::load(&chunk.streams[0][k..]), R::Word::load(&chunk.streams[1][k..])];
-            let mut sums = [[R::Wide::splat(0.0); 2]; 3];
+            let mut row = chunk.row(k, &light);
+            let (mut sums, mut divisors) = (Sums::<R>::zero(), Sums::<R>::zero());
             let mut rays = R::Word::load(&chunk.rays[k..]);
-            for index in 0..light.n {
-                let xi = light.sampler.across::<R>(light.key, streams, index);
-                let (Rgb(worth), ray) = estimator.primary(&from, xi);
-                rays = rays.wrapping_add(R::select_word(ray, R::Word::splat(1), R::Word::splat(0)));
-                for c in 0..3 {
-                    let [low, high] = worth[c].widen();
-                    sums[c] = [sums[c][0] + low, sums[c][1] + high];
+            for start in (0..light.each as usize).step_by(at_once) {
+                let length = at_once.min(light.each as usize - start);
+                light.fill(&row, length, &mut numbers);
+                for k in 0..length {
+                    let drawn = numbers.from(k * R::LANES);
+                    let worth = estimator.primary(&from, drawn);
+                    sums.add(worth.value, drawn.weight());
+                    rays = rays.wrapping_add(worth.rays);
+                    if E::QUOTIENT {
+                        divisors.add(estimator.divisor(&from, drawn), None);
+                    }
                 }
+                row.first.iter_mut().for_each(|first| *first += length as u32);
             }
             rays.store(&mut chunk.rays[k..]);
-            for c in 0..3 {
-                let mut means = [0.0; ROOM];
-                for half in 0..2 {
-                    (sums[c][half] * share).store(&mut means[half * EIGHT..]);
-                }
-                for lane in 0..R::LANES {
-                    chunk.value[c][k + lane] += means[lane];
+            let (sums, divisors) = (sums.by_lane(), divisors.by_lane());
+            for lane in 0..R::LANES {
+                let value = estimator.estimate(sums[lane], divisors[lane], light.each);
+                for c in 0..3 {
+                    chunk.value[c][k + lane] += value[c];
                 }
             }
         }

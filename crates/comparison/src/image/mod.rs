@@ -151,7 +151,7 @@ impl Rendering {
         camera: &Camera,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<Pixel>, ComparisonError> {
-        let painter = Painter::new(self, world, camera)?;
+        let painter = Painter::new(self, world, camera);
         let mut image = vec![Pixel::default(); self.crop.width() as usize * self.crop.height() as usize];
         tiles(self.crop, &mut image).into_par_iter().try_for_each_init(Chunk::new, |chunk, mut tile| {
             let pixels = painter.tile(tile.square, chunk)?;

@@ -5,16 +5,18 @@ use twoforms_estimator::estimate::NotFinite;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
-use twoforms_estimator::sampler::{Sampler, Stream};
+use twoforms_estimator::sampler::Stream;
 use twoforms_estimator::strategy::{Kernel, Known, Prepared};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
+use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_scene::Camera;
 
 use super::beam::Beam;
 use super::chunk::Chunk;
+use super::chunk::Samples;
 use super::{Centre, Crop, Pixel, PixelFilter, Rendering};
 use crate::error::BrokenPixel;
 use crate::viewpoint;
@@ -105,10 +107,13 @@ impl<'a> Painter<'a> {
 
     fn camera_sample(&self, x: u32, y: u32, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
         let [dx, dy] = match self.rendering.filter {
-            PixelFilter::Box => Stream { sampler: Sampler::Independent, draws: Draws { key: self.camera_key, stream } }
+            PixelFilter::Box => self
+                .pixel_stream(&self.camera_samples(), stream)
+                .xi(stream[1], 1)
+                .from(0)
                 .xi(0)
                 .uv()
-                .map(f64::from),
+                .map(<f64 as From<f32>>::from),
             PixelFilter::Point => [0.5; 2],
         };
         match self.look(f64::from(x) + dx, f64::from(y) + dy) {
@@ -139,15 +144,39 @@ impl<'a> Painter<'a> {
 
     /// The mean of the light samples at one point, and the rays it took.
     pub(super) fn receive(&self, seen: &Seen, query: &Query, stream: [u32; 2]) -> Result<([f64; 3], u64), NotFinite> {
-        let light_samples = self.rendering.light_samples;
-        let effort = if light_samples >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
+        let samples = self.light_samples();
+        let effort = if samples.each >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
         let view = View::new(&self.world.geometry, Frame::new(seen.position, seen.normal), effort);
-        self.prepared.run(&view, query, Secondary { stream: self.light_stream(stream), n: light_samples })
+        let secondary =
+            Secondary { stream: self.pixel_stream(&samples, stream), first: stream[1] * samples.each, samples };
+        self.prepared.run(&view, query, &Known::default(), secondary)
     }
 
-    /// The random numbers of the light samples of one camera sample.
-    pub(super) fn light_stream(&self, stream: [u32; 2]) -> Stream {
-        Stream { sampler: self.rendering.sampler, draws: Draws { key: self.light_key, stream } }
+    /// The random words of a camera sample's first light sample.
+    pub(super) fn words(&self, stream: [u32; 2]) -> Vec<[u32; 2]> {
+        let samples = self.light_samples();
+        self.pixel_stream(&samples, stream).xi(stream[1] * samples.each, 1).words(0)
+    }
+
+    /// Where in its pixel each camera sample lies.
+    pub(super) fn camera_samples(&self) -> Samples {
+        self.samples(self.camera_key, 1)
+    }
+
+    /// The light samples of a pixel.
+    pub(super) fn light_samples(&self) -> Samples {
+        self.samples(self.light_key, self.rendering.light_samples)
+    }
+
+    fn samples(&self, key: Key, each: u32) -> Samples {
+        let Rendering { sampler, spp, .. } = *self.rendering;
+        Samples { sampler, key, each, spp, instructions: Instructions::best() }
+    }
+
+    /// The stream of a pixel, from the pixel's number and a camera sample.
+    fn pixel_stream(&self, samples: &Samples, [pixel, _]: [u32; 2]) -> Stream {
+        let draws = Draws { key: samples.key, stream: [pixel, 0] };
+        Stream { sampler: samples.sampler, draws, n: samples.spp * samples.each }
     }
 
     /// Direction from the camera through a point of the image, in pixels.
@@ -177,17 +206,18 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// The mean of n light samples, and the rays it took.
+/// The mean of the light samples of one camera sample, and the rays it took.
 struct Secondary {
     stream: Stream,
-    n: u32,
+    first: u32,
+    samples: Samples,
 }
 
 impl Kernel for Secondary {
     type Output = Result<([f64; 3], u64), NotFinite>;
 
     fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
-        let estimate = estimator.secondary(self.stream)?;
+        let estimate = estimator.part(self.stream, self.first..self.first + self.samples.each)?;
         Ok((estimate.value, estimate.rays))
     }
 }

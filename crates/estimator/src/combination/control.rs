@@ -41,7 +41,11 @@ struct Shade<R: Real> {
 
 impl Shadow<'_> {
     #[inline(always)]
-    fn unhidden<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> (Rgb<R>, Sample<crate::measure::SurfaceArea, R>, R::Mask) {
+    fn unhidden<R: Real>(
+        &self,
+        from: &Vantage<R>,
+        drawn: Drawn,
+    ) -> (Rgb<R>, Sample<crate::measure::SurfaceArea, R>, R::Mask) {
         let (sample, some) = self.density.sample(from, drawn.xi(0)).parts();
         let xy = Segment::to(&sample.at);
         let facing = some & from.wanted() & xy.facing();

@@ -37,7 +37,8 @@ struct Reservoir<R: Real> {
 impl<R: Real> Reservoir<R> {
     fn empty(u: R) -> Self {
         let zero = R::zero();
-        let nowhere = SurfacePoint { position: Vector::new(zero, zero, R::one()), depth: zero, target: R::Word::splat(0) };
+        let nowhere =
+            SurfacePoint { position: Vector::new(zero, zero, R::one()), depth: zero, target: R::Word::splat(0) };
         Self { y: nowhere, per_target: zero, sum: zero, u }
     }
 

@@ -30,10 +30,7 @@ pub trait Formulation {
     ) -> Integrand<Self::Measure, R>;
 
     /// The point of a light that x sees at a point of the domain, if it does: what the integrand values.
-    fn seen<R: Real>(
-        from: &Vantage<R>,
-        at: &<Self::Measure as Measure>::Point<R>,
-    ) -> Masked<SurfacePoint<R>, R>;
+    fn seen<R: Real>(from: &Vantage<R>, at: &<Self::Measure as Measure>::Point<R>) -> Masked<SurfacePoint<R>, R>;
 
     /// Where the integrand asks for a ray: vp or V.
     fn asks<R: Real>(at: &<Self::Measure as Measure>::Point<R>) -> R::Mask;

@@ -48,9 +48,9 @@ impl Strategy {
     /// Why the strategy can't be sampled at all, if it can't.
     pub fn impossible(self) -> Option<String> {
         match self {
-            Self::Mis(Weighting::Optimal, team) if team != Team::default() => {
-                Some(format!("\"{self}\" needs the α of its team, which are known for {AREA} with hemisphere/cosine alone"))
-            }
+            Self::Mis(Weighting::Optimal, team) if team != Team::default() => Some(format!(
+                "\"{self}\" needs the α of its team, which are known for {AREA} with hemisphere/cosine alone"
+            )),
             _ => None,
         }
     }
@@ -74,7 +74,8 @@ impl Prepared {
 
     /// Whether each x needs an estimator of its own, so that a view of many x has none.
     pub fn depends_on_x(&self) -> bool {
-        let by_itself = matches!(self.strategy, Strategy::Ratio | Strategy::ControlVariate) || self.strategy.needs_alpha();
+        let by_itself =
+            matches!(self.strategy, Strategy::Ratio | Strategy::ControlVariate) || self.strategy.needs_alpha();
         by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
     }
 
@@ -82,7 +83,13 @@ impl Prepared {
     ///
     /// # Panics
     /// When the strategy needs α and `known` has none.
-    pub fn run<'a, K: Kernel>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known, kernel: K) -> K::Output {
+    pub fn run<'a, K: Kernel>(
+        &'a self,
+        view: &'a View<'a>,
+        query: &'a Query<'a>,
+        known: &Known,
+        kernel: K,
+    ) -> K::Output {
         let at = |k: usize| self.techniques[k].at(view, query);
         match self.strategy {
             Strategy::Single(_) => at(0).run(OfSingle(kernel)),

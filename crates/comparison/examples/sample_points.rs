@@ -32,8 +32,8 @@ struct Samples {
 impl Kernel for Samples {
     type Output = Result<Estimate, NotFinite>;
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        estimator.secondary(self.n, self.stream)
+    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
+        estimator.secondary(self.stream)
     }
 }
 
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let ([scene, points, strategy, n], [repeat]) = arguments(USAGE, ["--repeat"])?;
     let (strategy, n): (Strategy, u32) = (strategy.parse()?, whole(&n, "N")?);
     let world = World::new(Scene::load(scene.as_ref())?)?;
-    let prepared = strategy.prepare(&world.lights)?;
+    let prepared = strategy.prepare(&world.lights);
     let frames = frames(&std::fs::read_to_string(points)?)?;
     let mut mean = 0.0;
     let seconds = seconds(repeat, |round| {

@@ -184,6 +184,12 @@ impl Picker {
         (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
     }
 
+    /// Whether there is a single target.
+    #[inline(always)]
+    pub fn is_single(&self) -> bool {
+        self.density.len() == 1
+    }
+
     /// The probability of picking a target over its measure.
     #[inline(always)]
     pub fn density<R: Real>(&self, target: R::Word) -> R {

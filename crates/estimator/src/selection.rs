@@ -212,6 +212,12 @@ impl Picker {
         (piece, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
     }
 
+    /// Whether there is a single target, in one piece.
+    #[inline(always)]
+    pub fn is_single(&self) -> bool {
+        self.density.len() == 1 && matches!(self.shares[..], [Share { piece: 0, .. }])
+    }
+
     /// The probability of picking a target over its measure.
     #[inline(always)]
     pub fn density<R: Real>(&self, target: R::Word) -> R {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::Real;
+use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::{Vantage, View};
 
@@ -35,7 +35,12 @@ pub struct OnLights<'p, S> {
 impl<S: Spread> Density<SurfaceArea> for OnLights<'_, S> {
     #[inline(always)]
     fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
-        let (piece, u) = self.picker.pick::<R>(xi.pick());
+        let (piece, u) = if self.picker.is_single() {
+            let [u, _] = xi.uv();
+            (R::Word::splat(0), u)
+        } else {
+            self.picker.pick::<R>(xi.pick())
+        };
         let at = self.spread.point(from, piece, [u, xi.v()]);
         self.pdf(from, &at).map(|pdf| Sample { at, pdf })
     }

@@ -110,11 +110,14 @@ impl<S: Spread> Kernel for By<Along<'_, '_>, S> {
             let pair = pair as u32;
             let [a, b, c, d] = seed(*key, *stream, pair);
             let seed = [R::Word::splat(a), R::Word::splat(b), R::Word::splat(c), R::Word::splat(d)];
-            for offset in (0..length).step_by(R::LANES) {
-                let index = R::Word::counting(first + offset as u32);
-                let [one, other] = S::pair::<R>(&Place { index, n: *n, pair, seed });
-                one.store(&mut u[offset..]);
-                other.store(&mut v[offset..]);
+            for offset in (0..length).step_by(2 * R::LANES) {
+                let here = Place { index: R::Word::counting(first + offset as u32), n: *n, pair, seed };
+                let there = Place { index: R::Word::counting(first + (offset + R::LANES) as u32), ..here };
+                let [one, other] = S::two::<R>([here, there]);
+                one[0].store(&mut u[offset..]);
+                one[1].store(&mut v[offset..]);
+                other[0].store(&mut u[offset + R::LANES..]);
+                other[1].store(&mut v[offset + R::LANES..]);
             }
         }
     }

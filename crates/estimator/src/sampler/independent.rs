@@ -13,6 +13,13 @@ impl Spread for Independent {
     #[inline(always)]
     fn pair<R: Real>(place: &Place<R>) -> [R::Word; 2] {
         let [key, high, ..] = place.seed;
-        philox2x32_10([place.index, high], key)
+        let [pair] = philox2x32_10([[place.index, high]], key);
+        pair
+    }
+
+    #[inline(always)]
+    fn two<R: Real>([one, other]: [Place<R>; 2]) -> [[R::Word; 2]; 2] {
+        let [key, high, ..] = one.seed;
+        philox2x32_10([[one.index, high], [other.index, high]], key)
     }
 }

@@ -30,6 +30,12 @@ pub trait Spread {
     /// The two words at a place, each uniform over replicates.
     fn pair<R: Real>(place: &Place<R>) -> [R::Word; 2];
 
+    /// The words at two places of one stream and pair.
+    #[inline(always)]
+    fn two<R: Real>([one, other]: [Place<R>; 2]) -> [[R::Word; 2]; 2] {
+        [Self::pair(&one), Self::pair(&other)]
+    }
+
     /// The least number of samples that it can spread, at least `n`.
     fn rounded(n: u32) -> u32 {
         n

@@ -7,7 +7,10 @@ use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
-use crate::density::{AreaOnLights, CosineHemisphere, Density, Ready, SolidAngleOnLights, TowardPreparedLights, UniformHemisphere};
+use crate::density::{
+    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights, TowardPreparedLights,
+    UniformHemisphere,
+};
 use crate::estimator::Single;
 use crate::formulation::{Area, Formulation, Hemisphere};
 use crate::lights::Lights;
@@ -149,6 +152,8 @@ techniques! {
     AreaUniform: Area, AreaOnLights = "area/uniform" @selection,
     /// Points on the targets that face x, uniform in solid angle.
     AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
+    /// Points on what rises above the horizon of the targets that face x, uniform in projected solid angle.
+    AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

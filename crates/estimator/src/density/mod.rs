@@ -3,12 +3,16 @@
 mod along;
 mod hemisphere;
 mod lights;
+mod projected_solid_angle;
+mod sector;
 mod solid_angle;
 mod spherical_triangle;
 mod toward;
 
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLights};
+pub use sector::{Sector, sectors};
 pub use solid_angle::{BySolidAngle, SolidAngleOnLights, spherical_triangles};
 pub use spherical_triangle::SphericalTriangle;
 pub use toward::{TowardLights, TowardPreparedLights};

@@ -118,7 +118,9 @@ impl Picker {
         contributions: impl FnOnce() -> Vec<f64>,
     ) -> Self {
         let mut measure = vec![0.0; lights.targets()];
-        pieces.iter().for_each(|piece| measure[piece.target as usize] += piece.measure);
+        for piece in pieces {
+            measure[piece.target as usize] += piece.measure;
+        }
         let (weights, empty) = selection.weights(lights, &measure, contributions);
         Self::of(&weights, empty, &measure, pieces)
     }
@@ -139,7 +141,8 @@ impl Picker {
         let width = |k: usize| bounds[k + 1] - bounds[k];
         let mut words = vec![0_u64; weights.len()];
         pieces.iter().enumerate().for_each(|(k, piece)| words[piece.target as usize] += width(k));
-        let of_words = |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
+        let of_words =
+            |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
         let density = words.iter().zip(measure).map(of_words).collect();
         let share =
             |k: usize| Share { first: bounds[k] as u32, piece: k as u32, scale: (1.0 / width(k) as f64) as f32 };

@@ -8,8 +8,8 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights, TowardPreparedLights,
-    UniformHemisphere,
+    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use crate::estimator::Single;
 use crate::formulation::{Area, Formulation, Hemisphere};
@@ -148,6 +148,8 @@ techniques! {
     HemisphereCosine: Hemisphere, CosineHemisphere = "hemisphere/cosine",
     /// The density of `area/uniform`, the integral over the hemisphere.
     HemisphereTowardLights: Hemisphere, TowardPreparedLights = "hemisphere/toward-lights" @selection,
+    /// The same directions with their true density.
+    HemisphereTowardLightsMarginal: Hemisphere, TowardLightsMarginally = "hemisphere/toward-lights-marginal" @selection,
     /// Points on the lights, uniform over their area.
     AreaUniform: Area, AreaOnLights = "area/uniform" @selection,
     /// Points on the targets that face x, uniform in solid angle.

@@ -4,11 +4,12 @@
 use std::path::Path;
 use std::time::Instant;
 
-use twoforms_estimator::density::{AreaOnLights, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights};
+use twoforms_estimator::density::{
+    AreaOnLights, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights, TowardLightsMarginally,
+};
 use twoforms_estimator::estimator::{Estimator, Single};
-use twoforms_estimator::formulation::Area;
+use twoforms_estimator::formulation::{Area, Formulation, Hemisphere};
 use twoforms_estimator::lights::Lights;
-use twoforms_estimator::measure::SurfaceArea;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
 use twoforms_estimator::selection::Selection;
@@ -42,25 +43,27 @@ fn main() {
         let Ok(sight) = look(&geometry, &lights, &frame, [1.0; 3]) else { continue };
         let at = At { name: &receiver.name, view: &view, query: &query, sight: &sight, samples };
         for selection in Selection::ALL {
-            at.row::<AreaOnLights>(&lights, Technique { kind: Kind::AreaUniform, selection });
-            at.row::<SolidAngleOnLights>(&lights, Technique { kind: Kind::AreaSolidAngle, selection });
+            at.row::<Area, AreaOnLights>(&lights, Technique { kind: Kind::AreaUniform, selection });
+            at.row::<Area, SolidAngleOnLights>(&lights, Technique { kind: Kind::AreaSolidAngle, selection });
+            let kind = Kind::HemisphereTowardLightsMarginal;
+            at.row::<Hemisphere, TowardLightsMarginally>(&lights, Technique { kind, selection });
             let kind = Kind::AreaProjectedSolidAngle;
-            at.row::<ProjectedSolidAngleOnLights>(&lights, Technique { kind, selection });
+            at.row::<Area, ProjectedSolidAngleOnLights>(&lights, Technique { kind, selection });
         }
     }
 }
 
 impl At<'_> {
-    fn row<D>(&self, lights: &Lights, technique: Technique)
+    fn row<F: Formulation, D>(&self, lights: &Lights, technique: Technique)
     where
-        D: Ready<Measure = SurfaceArea>,
-        for<'a> D::At<'a>: Density<SurfaceArea>,
+        D: Ready<Measure = F::Measure>,
+        for<'a> D::At<'a>: Density<F::Measure>,
     {
         let begin = Instant::now();
         let ready = D::prepare(lights, technique.selection);
         let density = ready.at(self.view, lights);
         let set_up = begin.elapsed().as_secs_f64();
-        let estimator = Single::<Area, _>::new(self.view, self.query, density);
+        let estimator = Single::<F, _>::new(self.view, self.query, density);
         let draws = Draws { key: Key::new([7]), stream: [self.samples, 0] };
         let stream = Stream { sampler: Sampler::Independent, draws, n: self.samples };
         let begin = Instant::now();

@@ -46,7 +46,7 @@ fn room() {
         black_box(sight.irradiance());
     });
     per("  and ten closed variances", &|sight| {
-        black_box(sight.variances(&CLOSED));
+        black_box(sight.variances(CLOSED));
     });
     for weighting in [Weighting::Balance, Weighting::Power, Weighting::Optimal] {
         let strategy = Strategy::Mis(weighting, Team::default());

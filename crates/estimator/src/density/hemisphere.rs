@@ -76,7 +76,7 @@ macro_rules! ready_everywhere {
                 false
             }
 
-            fn at<'a>(&'a self, _: &View, _: &Lights) -> Self {
+            fn at(&self, _: &View, _: &Lights) -> Self {
                 *self
             }
         }

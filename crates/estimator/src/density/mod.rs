@@ -15,7 +15,7 @@ pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLigh
 pub use sector::{Sector, sectors};
 pub use solid_angle::{BySolidAngle, SolidAngleOnLights, spherical_triangles};
 pub use spherical_triangle::SphericalTriangle;
-pub use toward::{TowardLights, TowardPreparedLights};
+pub use toward::{TowardLights, TowardLightsMarginal, TowardLightsMarginally, TowardPreparedLights};
 
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;

@@ -15,7 +15,8 @@
 //!
 //! 2A(t) = t X (L_i − L_o)/(L_o L_i) − (g_o − g_i) ρ(a) − g_i (s ab/(1 + ab) + ρ(s/(1 + ab))),   s = a − b,
 //!
-//! where every difference is linear in t and found in binary64 beforehand. Sectors are cut until no arc is longer than π/4.
+//! where every difference is linear in t and found in binary64 beforehand. Sectors are cut until no arc is longer than π/4, and until Newton's
+//! steps begin near enough to end at rounding.
 
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_4};
 
@@ -28,6 +29,10 @@ use twoforms_geometry::vector::Vector;
 pub(crate) const ROW: usize = 28;
 /// Newton's steps.
 const STEPS: usize = 3;
+/// How far the mean of A′ at both ends may be from the mean of A′, relative to that.
+const UNEVEN: f64 = 0.1;
+/// How often a sector is cut because it is uneven.
+const MOST_CUTS: u32 = 8;
 /// Vertical part of a plane's normal below which it is taken to hold the zenith.
 const UPRIGHT: f64 = 1e-9;
 /// Least cos²θ_x that is drawn, so that what is drawn at the horizon is not lost to rounding.
@@ -76,7 +81,8 @@ pub fn sectors(corners: &[DVec3], mut f: impl FnMut(Sector)) {
         let (v, w) = if outside { (v, w) } else { (w, v) };
         let (v, w) = (v.truncate(), w.truncate());
         let edge = Edge { slope: unit.truncate() / -unit.z, g: unit.z.abs() };
-        let arc = Arc { edge, from: libm::atan2(v.y, v.x) * around, span: libm::atan2(v.perp_dot(w) * around, v.dot(w)) };
+        let arc =
+            Arc { edge, from: libm::atan2(v.y, v.x) * around, span: libm::atan2(v.perp_dot(w) * around, v.dot(w)) };
         if outside { outer.push(arc) } else { inner.push(arc) }
     }
     for arc in &outer {
@@ -102,7 +108,7 @@ impl Arc {
         for (begin, end, edge) in parts.into_iter().chain([(self.span, self.span, None)]) {
             for (from, to, inner) in [(reached, begin, None), (begin, end, edge)] {
                 if to - from > 1e-14 {
-                    Sector { d: [at(from), at(to)], outer: self.edge, inner }.cut(f);
+                    Sector { d: [at(from), at(to)], outer: self.edge, inner }.cut(0, f);
                 }
             }
             reached = end;
@@ -128,21 +134,28 @@ impl Edge {
 }
 
 impl Sector {
-    /// Cuts the sector until its arcs are short.
-    fn cut(self, f: &mut dyn FnMut(Self)) {
+    /// Cuts the sector until its arcs are short, and the area swept grows nearly evenly faster or slower with t.
+    fn cut(self, cuts: u32, f: &mut dyn FnMut(Self)) {
         let level = Edge { slope: DVec2::ZERO, g: 1.0 };
         let sides = [Some((level, FRAC_PI_3)), Some((self.outer, FRAC_PI_4)), self.inner.map(|edge| (edge, FRAC_PI_4))];
         let excess = |&(edge, most): &(Edge, f64)| edge.arc(self.d) / most;
         let longest = sides.into_iter().flatten().max_by(|one, other| excess(one).total_cmp(&excess(other)));
-        match longest.filter(|side| excess(side) > 1.0) {
-            Some((edge, _)) => {
+        let long = longest.filter(|side| excess(side) > 1.0).map(|(edge, _)| edge);
+        match long.or_else(|| (cuts < MOST_CUTS && self.is_uneven()).then_some(self.outer)) {
+            Some(edge) => {
                 let middle = edge.middle(self.d);
-                Self { d: [self.d[0], middle], ..self }.cut(f);
-                Self { d: [middle, self.d[1]], ..self }.cut(f);
+                Self { d: [self.d[0], middle], ..self }.cut(cuts + 1, f);
+                Self { d: [middle, self.d[1]], ..self }.cut(cuts + 1, f);
             }
             None if self.projected_solid_angle() > 0.0 => f(self),
             None => (),
         }
+    }
+
+    /// Whether the first guess of the azimuth, that A′ is linear, is far off.
+    fn is_uneven(&self) -> bool {
+        let ([begin, end], whole) = (self.growth(), 2.0 * self.projected_solid_angle());
+        (0.5 * (begin + end) - whole).abs() > UNEVEN * whole
     }
 
     /// Its projected solid angle in steradian.
@@ -303,8 +316,36 @@ impl<R: Real> Gap<R> {
 /// t with A(t) = u A(1): from the guess that A′ is linear, by Newton's steps.
 #[inline(always)]
 fn azimuth<R: Real>(row: &[R; ROW], u: R) -> R {
-    let [d_x, d_y, e_x, e_y, z_o, dz_o, z_i, dz_i, w, dw, cross, l_o, dl_o, l_i, dl_i, d, dd, s, ds, a, b, g_i, dg, whole, begin, end, _, _] =
-        *row;
+    let [
+        d_x,
+        d_y,
+        e_x,
+        e_y,
+        z_o,
+        dz_o,
+        z_i,
+        dz_i,
+        w,
+        dw,
+        cross,
+        l_o,
+        dl_o,
+        l_i,
+        dl_i,
+        d,
+        dd,
+        s,
+        ds,
+        a,
+        b,
+        g_i,
+        dg,
+        whole,
+        begin,
+        end,
+        _,
+        _,
+    ] = *row;
     let (zero, one) = (R::zero(), R::one());
     let wanted = u * whole;
     let mut t = u * (begin + end) / (begin + (begin * begin + u * (end - begin) * (end + begin)).sqrt());
@@ -319,12 +360,75 @@ fn azimuth<R: Real>(row: &[R; ROW], u: R) -> R {
         let (a, b) = (t * a * per_l_o, t * b * per_l_i);
         let (s, ab) = ((s + ds * t) * both, a * b);
         let per = one / (one + ab);
-        let swept = cross * (d + dd * t) * both
-            - dg * arctan_defect(a)
-            - g_i * (s * ab * per + arctan_defect(s * per));
+        let swept = cross * (d + dd * t) * both - dg * arctan_defect(a) - g_i * (s * ab * per + arctan_defect(s * per));
         t = t - (swept - wanted) / at_least(growth, flat);
         t = at_least(t, zero);
         t = R::select(t.lt(one), t, one);
     }
     t
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use glam::DVec3;
+    use rand_philox::splitmix64;
+    use twoforms_geometry::solid_angle::projected_solid_angle;
+
+    use super::{Sector, sectors};
+
+    struct Random(u64);
+
+    impl Random {
+        fn uniform(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            ((splitmix64(self.0) >> 12) as f64 + 0.5) / 4_503_599_627_370_496.0
+        }
+
+        /// A triangle of any size around any direction: before x, across its horizon, or overhead.
+        fn triangle(&mut self) -> [DVec3; 3] {
+            let size = 10.0_f64.powf(4.0 * self.uniform() - 3.0);
+            let (z, (sin, cos)) = (self.uniform(), (TAU * self.uniform()).sin_cos());
+            let toward = DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
+            [0; 3].map(|_| toward + size * (DVec3::new(self.uniform(), self.uniform(), self.uniform()) - 0.5))
+        }
+    }
+
+    /// (u, v) of a direction, found from areas in binary64, and how much of the squared radius v runs over.
+    fn undone(sector: &Sector, psi: [f32; 3]) -> [f64; 3] {
+        let psi = DVec3::from(psi.map(f64::from)).normalize();
+        let to = Sector { d: [sector.d[0], psi.truncate().normalize()], ..*sector };
+        let square = |edge: Option<super::Edge>| edge.map_or(0.0, |edge| 1.0 / edge.over(to.d[1]).length_squared());
+        let (outer, inner) = (square(Some(sector.outer)), square(sector.inner));
+        let u = to.projected_solid_angle() / sector.projected_solid_angle();
+        [u, (psi.truncate().length_squared() - inner) / (outer - inner), outer - inner]
+    }
+
+    /// Sectors add up to the polygon, and what is drawn at (u, v) comes back as (u, v).
+    #[test]
+    fn draws_are_uniform_over_polygons_of_any_size() {
+        let mut random = Random(3);
+        let mut worst = [0.0_f64; 2];
+        for _ in 0..20_000 {
+            let corners = random.triangle();
+            let whole = projected_solid_angle(&corners);
+            let mut sum = 0.0;
+            sectors(&corners, |sector| {
+                let part = sector.projected_solid_angle();
+                sum += part;
+                let uv = [random.uniform() as f32, random.uniform() as f32];
+                let psi = sector.direction(uv);
+                assert!(psi.iter().all(|c| c.is_finite()) && psi[2] > 0.0, "{psi:?} at {uv:?} of {corners:?}");
+                let [u, v, thick] = undone(&sector, psi);
+                let off = [(u - f64::from(uv[0])).abs(), (v - f64::from(uv[1])).abs()];
+                // What is misplaced of the polygon, beside what rounding the direction to binary32 moves it by.
+                let rounding = [1e-6 / part.sqrt(), 5e-7 / thick];
+                let misplaced = [0, 1].map(|k| (off[k] - rounding[k]).max(0.0) * (part / whole) - 2e-7 / whole.sqrt());
+                worst = [worst[0].max(misplaced[0]), worst[1].max(misplaced[1])];
+            });
+            assert!((sum - whole).abs() <= 1e-9 * whole + 1e-14, "{sum} of {whole}: {corners:?}");
+        }
+        assert!(worst[0] < 1e-4 && worst[1] < 1e-4, "{worst:?}");
+    }
 }

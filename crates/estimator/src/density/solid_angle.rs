@@ -7,10 +7,10 @@ use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
+use super::Ready;
 use super::along;
 use super::lights::{OnLights, Spread};
 use super::spherical_triangle::{self, SphericalTriangle};
-use super::Ready;
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
 use crate::selection::{Picker, Piece, Selection};
@@ -122,4 +122,38 @@ pub fn spherical_triangles(corners: &[DVec3]) -> Vec<SphericalTriangle> {
     let mut triangles = Vec::new();
     each_triangle(corners, |triangle| triangles.push(triangle));
     triangles
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use glam::DVec3;
+
+    use super::spherical_triangles;
+
+    /// An octant; most of the hemisphere; a sliver half around it: cut or not, parts add up and draws lie within.
+    #[test]
+    fn parts_add_up_and_hold_their_draws() {
+        let corner = |degrees: f64, z: f64| DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), z);
+        let octant = [DVec3::X, DVec3::Y, DVec3::Z];
+        let wide = [corner(0.0, 1e-3), corner(120.0, 1e-3), corner(240.0, 1e-3)];
+        let sliver = [corner(0.0, 0.01), corner(175.0, 0.01), corner(80.0, 0.012)];
+        for (corners, least, most) in [(octant, 1, 1), (wide, 3, 12), (sliver, 2, 8)] {
+            let parts = spherical_triangles(&corners);
+            let sum: f64 = parts.iter().map(super::SphericalTriangle::solid_angle).sum();
+            let whole = twoforms_geometry::solid_angle::solid_angle(&corners);
+            assert!((least..=most).contains(&parts.len()) && (sum - whole).abs() < 1e-9 * PI, "{sum} {whole}");
+            let around = 1.0_f64.copysign(corners[0].dot(corners[1].cross(corners[2])));
+            for part in &parts {
+                for k in 0..64_u8 {
+                    let uv = [f32::from(k % 8) / 7.0, f32::from(k / 8 + 1) / 8.0];
+                    let psi = part.turned(part.direction(uv).map(f64::from));
+                    let edges =
+                        [[0, 1], [1, 2], [2, 0]].map(|[i, j]| corners[i].cross(corners[j]).normalize() * around);
+                    assert!(edges.iter().all(|normal| normal.dot(psi) > -1e-6), "{psi} at {uv:?} of {corners:?}");
+                }
+            }
+        }
+    }
 }

@@ -1,8 +1,9 @@
 //! Directions toward points on the lights.
 
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::segment::Segment;
+use twoforms_geometry::vector::Direction;
 use twoforms_geometry::view::{Vantage, View};
 
 use super::lights::{AreaOnLights, ByArea, OnLights};
@@ -59,5 +60,71 @@ impl Ready for TowardPreparedLights {
 
     fn at<'a>(&'a self, view: &View, lights: &Lights) -> TowardLights<'a> {
         TowardLights { lights: self.0.at(view, lights) }
+    }
+}
+
+/// The same directions with their true density: p(Ψ) = Σ p(y) r²/|cosθ_y| over all points y of lights along Ψ, whatever stands
+/// between and whichever side they show. Whatever light Ψ meets first counts. A sample asks every target.
+#[derive(Clone, Debug)]
+pub struct TowardLightsMarginal<'p> {
+    /// Where Ψ points at.
+    pub lights: OnLights<'p, ByArea>,
+}
+
+impl TowardLightsMarginal<'_> {
+    /// Σ p(y) r²/|cosθ_y|; the target that y was drawn on is met, however Ψ was rounded.
+    #[inline(always)]
+    fn density<R: Real>(&self, from: &Vantage<R>, psi: Direction<R>, drawn: R::Word) -> R {
+        let mut sum = R::zero();
+        for k in 0..from.view().geometry().targets().len() as u32 {
+            let target = R::Word::splat(k);
+            let met = R::same(drawn, target) | from.meets_one(k, psi);
+            if met.any() {
+                let xy = Segment::to(&from.facet(target).point_along(psi, target));
+                let d_omega = xy.d_omega_d_area();
+                let d_omega = R::select(d_omega.lt(R::zero()), -d_omega, d_omega);
+                let met = met & R::zero().lt(d_omega);
+                sum = sum + R::select(met, self.lights.picker.density::<R>(target) / d_omega, R::zero());
+            }
+        }
+        sum
+    }
+}
+
+impl Density<SolidAngle> for TowardLightsMarginal<'_> {
+    #[inline(always)]
+    fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
+        let (Sample { at: y, .. }, some) = self.lights.sample(from, xi).parts();
+        let xy = Segment::to(&y);
+        let pdf = self.density(&from.only(some), xy.psi, y.target);
+        let some = some & R::zero().lt(xy.cos_x) & R::zero().lt(pdf);
+        Masked::new(Sample { at: Aim::anywhere(xy.psi), pdf: Pdf::new(pdf) }, some)
+    }
+
+    #[inline(always)]
+    fn pdf<R: Real>(&self, from: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
+        let pdf = self.density(from, aim.psi, R::Word::splat(ANYWHERE));
+        Masked::new(Pdf::new(pdf), R::zero().lt(aim.psi.cos_theta()) & R::zero().lt(pdf))
+    }
+}
+
+/// `hemisphere/toward-lights-marginal`.
+#[derive(Clone, Debug)]
+pub struct TowardLightsMarginally(AreaOnLights);
+
+impl Ready for TowardLightsMarginally {
+    type Measure = SolidAngle;
+    type At<'a> = TowardLightsMarginal<'a>;
+
+    fn prepare(lights: &Lights, selection: Selection) -> Self {
+        Self(AreaOnLights::prepare(lights, selection))
+    }
+
+    fn depends_on_x(&self) -> bool {
+        self.0.depends_on_x()
+    }
+
+    fn at<'a>(&'a self, view: &View, lights: &Lights) -> TowardLightsMarginal<'a> {
+        TowardLightsMarginal { lights: self.0.at(view, lights) }
     }
 }

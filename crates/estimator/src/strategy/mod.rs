@@ -61,9 +61,10 @@ impl Strategy {
     /// are points of lights.
     pub fn density_name(self) -> String {
         match self {
-            Self::Single(Technique { kind: Kind::HemisphereTowardLights, selection }) => {
-                Technique { kind: Kind::AreaUniform, selection }.to_string()
-            }
+            Self::Single(Technique {
+                kind: Kind::HemisphereTowardLights | Kind::HemisphereTowardLightsMarginal,
+                selection,
+            }) => Technique { kind: Kind::AreaUniform, selection }.to_string(),
             other => other.to_string(),
         }
     }

@@ -81,6 +81,13 @@ impl<'v, R: Real> Vantage<'v, R> {
         .0
     }
 
+    /// The same for one target: a few dot products.
+    #[inline(always)]
+    pub fn meets_one(&self, target: u32, psi: Direction<R>) -> R::Mask {
+        let line = Line { toward: psi.vector(), start: self.start };
+        self.wanted & self.view.outline(target).holds(&line)
+    }
+
     /// y = vp(x, Ψ) where y is on the emitting side of a target; nothing where Ψ meets no surface, a surface that does
     /// not emit, or the dark side of one that does.
     #[inline(always)]

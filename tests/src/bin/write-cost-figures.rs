@@ -117,8 +117,8 @@ fn rate(cost: &Cost) -> f64 {
 fn row(terrain: &Measured) -> String {
     let Measured { triangles, preparation: Preparation { seconds, peak_memory }, costs } = terrain;
     let memory = peak_memory.map_or(String::new(), |bytes| bytes.to_string());
-    let rates: String = costs.iter().map(|cost| format!(",{:.1}", rate(cost))).collect();
-    format!("{triangles},{seconds:.4},{memory}{rates}\n")
+    let rates: Vec<String> = costs.iter().map(|cost| format!("{:.1}", rate(cost))).collect();
+    format!("{triangles},{seconds:.4},{memory},{}\n", rates.join(","))
 }
 
 fn write(folder: &Path, name: &str, figure: &Figure, numbers: &str) -> Result<(), Box<dyn Error>> {

@@ -180,9 +180,6 @@ mod tests {
     #[test]
     fn two_halves_of_the_unit_square_have_the_mean_of_all_texels() {
         for (sampler, size) in samplers().flat_map(|sampler| [(1, 1), (3, 5), (8, 2)].map(|size| (sampler, size))) {
-            if sampler.filter == Filter::Linear && sampler.wrap != [Wrap::Repeat; 2] {
-                continue;
-            }
             let texture = texture(size.0, size.1, sampler);
             let halves = [[[0., 0.], [0., 1.], [1., 1.]], [[0., 0.], [1., 0.], [1., 1.]]];
             let [first, second] = halves.map(|half| mean(&texture, corners(half)));

@@ -59,6 +59,7 @@ fn document(scene: &Scene) -> Value {
         "emitter_triangles": scene.targets.iter().flat_map(Target::triangles).count(),
         "targets": scene.targets.len(),
         "lights": scene.lights.iter().map(light).collect::<Vec<_>>(),
+        "textures": scene.textures.len(),
         "images": scene.images.iter().map(image).collect::<Vec<_>>(),
         "cameras": scene.cameras.iter().map(camera).collect::<Vec<_>>(),
         "auto_camera": viewpoint::auto(&scene.mesh).as_ref().map(camera),

@@ -114,11 +114,11 @@ fn a_lattice_is_closed_under_differences() {
     }
 }
 
-/// Every lattice of two numbers that a sample takes keeps its points apart: the shortest difference is at least a third of that
-/// of the best lattice, (2/√3)^(1/2) N^(-1/2).
+/// The lattices of a sample's first two pairs keep their points apart: the shortest difference is at least 0.45 times that of
+/// the best lattice, (2/√3)^(1/2) N^(-1/2).
 #[test]
-fn lattices_of_one_pair_keep_their_points_apart() {
-    for pair in 0..4 {
+fn the_first_lattices_keep_their_points_apart() {
+    for pair in 0..2 {
         for digits in 4..13 {
             let points = points(&stream(named("lattice"), 1 << digits, 8, 0), pair);
             let length = |[u, v]: [u32; 2]| {
@@ -128,7 +128,7 @@ fn lattices_of_one_pair_keep_their_points_apart() {
             };
             let shortest = points[1..].iter().map(|&point| length(point)).fold(1.0, f64::min);
             let best = (2.0 / 3.0_f64.sqrt() / f64::from(1 << digits)).sqrt();
-            assert!(shortest * 3.0 >= best, "pair {pair}, 2^{digits} points: {shortest} of {best}");
+            assert!(shortest >= 0.45 * best, "pair {pair}, 2^{digits} points: {shortest} of {best}");
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Every word is uniform over replicates, and pairs know nothing of each other.
 
+use twoforms_estimator::sampler::Sampler;
+
 use super::points::{random, stream, unit, words};
 
 /// Replicates.
@@ -66,9 +68,26 @@ fn words_of_one_sample_are_independent_of_each_other() {
     }
 }
 
-/// Mean over the samples of (u − 1/2)·(u' − 1/2), u and u' of different pairs: zero over replicates, and with the
-/// variance of independent numbers, 1/(144 N), or less. A pair that followed another would show in either. Level: six
-/// standard errors, 2·10⁻⁹ each; seed 13.
+/// How much larger the variance of a mean of products may be than with independent numbers. Where the order of samples is
+/// a nested permutation, neighbours in it stay neighbours, and are on opposite sides of every pair's square: half as many
+/// products are independent of each other, and the variance of signs is twice as large.
+fn allowed(sampler: Sampler) -> f64 {
+    if matches!(sampler.name(), "sobol" | "pmj02" | "lattice") { 2.6 } else { 1.3 }
+}
+
+/// Mean and variance of values that should have mean zero; fails where it lies six standard errors away, which chance does
+/// twice in 10⁹.
+fn variance_about_zero(sampler: Sampler, values: &[f64]) -> f64 {
+    let r = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / r;
+    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (r - 1.0);
+    assert!(mean.abs() < 6.0 * (variance / r).sqrt(), "{sampler}: mean {mean}");
+    variance
+}
+
+/// Mean over the samples of (u − 1/2)·(u' − 1/2), u and u' of different pairs: zero over replicates, with about the
+/// variance of independent numbers, 1/(144 N). A pair that followed another would show in either; the variance is known to
+/// 3 %. Seed 13.
 #[test]
 fn pairs_are_not_correlated() {
     for sampler in random() {
@@ -83,19 +102,15 @@ fn pairs_are_not_correlated() {
                         all.iter().map(product).sum::<f64>() / f64::from(n)
                     })
                     .collect();
-                let r = products.len() as f64;
-                let mean = products.iter().sum::<f64>() / r;
-                let variance = products.iter().map(|p| (p - mean).powi(2)).sum::<f64>() / (r - 1.0);
-                let independent = 1.0 / 144.0 / f64::from(n);
-                assert!(mean.abs() < 6.0 * (variance / r).sqrt(), "{sampler}, {one} and {other}: mean {mean}");
-                assert!(variance < 1.4 * independent, "{sampler}, {one} and {other}: {variance} over {independent}");
+                let ratio = variance_about_zero(sampler, &products) * 144.0 * f64::from(n);
+                assert!(ratio < allowed(sampler), "{sampler}, {one} and {other}: variance {ratio} times");
             }
         }
     }
 }
 
 /// Streams of different keys know nothing of each other: the camera's and the light's samples of a pixel are spread by
-/// the same sampler. Seeds 14 and 15; level as above.
+/// the same sampler. Signs of their words; seeds 14 and 15.
 #[test]
 fn streams_are_not_correlated() {
     for sampler in random() {
@@ -107,10 +122,7 @@ fn streams_are_not_correlated() {
                 one.iter().zip(&other).map(|(a, b)| bit(a[0][0]) * bit(b[0][0])).sum::<f64>() / f64::from(n)
             })
             .collect();
-        let r = products.len() as f64;
-        let mean = products.iter().sum::<f64>() / r;
-        let variance = products.iter().map(|p| (p - mean).powi(2)).sum::<f64>() / (r - 1.0);
-        assert!(mean.abs() < 6.0 * (variance / r).sqrt(), "{sampler}: mean {mean}");
-        assert!(variance * f64::from(n) < 1.4, "{sampler}: {variance}");
+        let ratio = variance_about_zero(sampler, &products) * f64::from(n);
+        assert!(ratio < allowed(sampler), "{sampler}: variance {ratio} times");
     }
 }

@@ -1,14 +1,13 @@
 //! What single samples are worth.
 
+use twoforms_comparison::exactly;
 use twoforms_comparison::place::Place;
-use twoforms_estimator::density::Density;
 use twoforms_estimator::estimator::Estimator;
-use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::Rgb;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::strategy::{Kernel, Known, Strategy};
 use twoforms_estimator::xi::{Draws, Key, Xi};
 use twoforms_geometry::view::{Effort, View};
 
@@ -33,18 +32,23 @@ impl Samples {
         Self { sampler, draws: Draws { key: Key::new(words), stream: [n, 0] }, n }
     }
 
-    /// ξ of one of them.
+    /// The first pair of ξ of one of them.
     pub fn xi(&self, index: u32) -> Xi<f32> {
-        Stream { sampler: self.sampler, draws: self.draws }.xi(index)
+        self.stream().xi(index, 1).from(0).xi(0)
+    }
+
+    fn stream(&self) -> Stream {
+        Stream { sampler: self.sampler, draws: self.draws, n: self.n }
     }
 }
 
 impl Kernel for Samples {
     type Output = Vec<[f32; 3]>;
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
         let worth = |index| {
-            let (Rgb(worth), _) = estimator.primary(&estimator.view().from_x(), self.xi(index));
+            let numbers = self.stream().xi(index, estimator.pairs());
+            let Rgb(worth) = estimator.primary(&estimator.view().from_x(), numbers.from(0)).value;
             worth
         };
         (0..self.n).map(worth).collect()
@@ -56,8 +60,13 @@ pub fn samples(case: &Case, strategy: Strategy, sampler: Sampler, n: u32, seed: 
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let kernel = Samples::new(seed, &case.place, strategy, sampler, n);
-    let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-    prepared.run(&view, &Query::irradiance(&world.lights), kernel)
+    strategy.prepare(&world.lights).run(&view, &Query::irradiance(&world.lights), &known(case), kernel)
+}
+
+/// What strategies may know beforehand at a receiver.
+pub fn known(case: &Case) -> Known {
+    let optimal: Vec<Strategy> = Strategy::all().into_iter().filter(|strategy| strategy.needs_alpha()).collect();
+    exactly::at(&case.stage.world, &case.place, &optimal).known()
 }
 
 /// The moments of one channel.

@@ -5,9 +5,8 @@ use twoforms_comparison::experiment::Experiment;
 use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::verdict::Criteria;
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimate, Estimator};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::Estimate;
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
 use twoforms_estimator::strategy::{Kernel, Strategy};
@@ -15,6 +14,7 @@ use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_report::{Document, Provenance};
+use twoforms_tests::samples;
 use twoforms_tests::worlds::{self, Stage};
 
 const THREADS: [usize; 3] = [1, 2, 7];
@@ -67,15 +67,14 @@ fn a_seed_fixes_the_results_on_any_number_of_threads() {
 
 /// The same estimate by each kind of instructions that the machine has.
 struct ByAll {
-    n: u32,
     stream: Stream,
 }
 
 impl Kernel for ByAll {
     type Output = Vec<Estimate>;
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        let by = |instructions| estimator.secondary_by(instructions, self.n, self.stream).expect("finite samples");
+    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
+        let by = |instructions| estimator.secondary_by(instructions, self.stream).expect("finite samples");
         Instructions::all().into_iter().map(by).collect()
     }
 }
@@ -85,17 +84,19 @@ fn bits_do_not_depend_on_the_instructions() {
     for case in worlds::cases(&worlds::all()) {
         let world = &case.stage.world;
         let query = Query::irradiance(&world.lights);
+        let known = samples::known(&case);
         let efforts = [Effort::Gather, Effort::Cast];
         let pairs = efforts.into_iter().flat_map(|effort| Strategy::all().into_iter().map(move |s| (effort, s)));
         for (effort, strategy) in pairs {
             let view = View::new(&world.geometry, case.place.frame(), effort);
             for n in [1, 17, 1000] {
                 let draws = Draws { key: Key::new([u64::from(n)]), stream: [n, 3] };
-                let stream = Stream { sampler: Sampler::Independent, draws };
-                let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-                let estimates = prepared.run(&view, &query, ByAll { n, stream });
-                let same = estimates.windows(2).all(|pair| pair[0] == pair[1]);
-                assert!(same, "{} {strategy} {effort:?} N = {n}: {estimates:?}", case.place.name);
+                for &sampler in Sampler::ALL {
+                    let stream = Stream { sampler, draws, n: sampler.rounded(n) };
+                    let estimates = strategy.prepare(&world.lights).run(&view, &query, &known, ByAll { stream });
+                    let same = estimates.windows(2).all(|pair| pair[0] == pair[1]);
+                    assert!(same, "{} {strategy} {sampler} {effort:?} N = {n}: {estimates:?}", case.place.name);
+                }
             }
         }
     }

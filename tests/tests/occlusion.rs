@@ -10,6 +10,7 @@ use twoforms_comparison::world::World;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_geometry::ray::Ray;
 use twoforms_tests::built::{block, ceiling, world};
 use twoforms_tests::scenes::{Material, Part};

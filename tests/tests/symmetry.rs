@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 use twoforms_comparison::exactly::{self, Bounded};
 use twoforms_comparison::world::World;
 use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_tests::built::{block, ceiling, places, world};
 use twoforms_tests::scenes::{Material, Part, Receiver};
 
@@ -109,12 +110,8 @@ fn quarter_turns_change_nothing() {
 /// Strategies whose density over points does not depend on how lights of one radiance are cut into primitives.
 fn indifferent_to_cuts() -> Vec<Strategy> {
     let depends = |strategy: &Strategy| match *strategy {
-        Strategy::from((Kind::AreaUniform, selection)) | Strategy::from((Kind::HemisphereTowardLights, selection)) => {
+        Strategy::Single(Technique { kind: Kind::AreaUniform | Kind::HemisphereTowardLights, selection }) => {
             matches!(selection, Selection::Uniform | Selection::Contribution)
-        }
-        Strategy::Area(Draw::SolidAngle, selection) => selection != Selection::Together,
-        Strategy::Area(Draw::ProjectedSolidAngle, selection) => {
-            matches!(selection, Selection::Uniform | Selection::Power)
         }
         _ => false,
     };

@@ -11,6 +11,7 @@ use twoforms_comparison::verdict::Criteria;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_tests::samples::{moments, samples};
 use twoforms_tests::statistics::{BinomialTest, Family, Outcome, ZTest};
 use twoforms_tests::worlds::{self, Case, Stage};

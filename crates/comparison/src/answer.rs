@@ -18,7 +18,7 @@ impl Answer {
 
     /// What is known beforehand for strategies that use it.
     pub(crate) fn known(&self) -> Known {
-        Known { alpha: self.0.alpha }
+        self.0.known()
     }
 
     /// The exact value, or why there is none.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use twoforms_estimator::rgb::luminance;
-use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::strategy::{Known, Strategy};
 use twoforms_exact::{Error, Sight, Value, receiver};
 
 use crate::place::Place;
@@ -111,6 +111,11 @@ pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult 
 }
 
 impl ExactResult {
+    /// What is known beforehand for strategies that use it, as far as those that were asked about do.
+    pub fn known(&self) -> Known {
+        Known { alpha: self.alpha }
+    }
+
     /// What is known at a place.
     pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
         let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());

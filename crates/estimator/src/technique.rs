@@ -113,20 +113,26 @@ macro_rules! techniques {
             }
 
             /// Draws a point of the domain, and finds the point of a light that x sees there.
-            #[inline(always)]
+            #[inline(never)]
             pub(crate) fn find<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Found<R> {
-                match self { $(Self::$kind(single) => single.find(from, xi)),* }
+                R::apart(
+                    #[inline(always)]
+                    || match self { $(Self::$kind(single) => single.find(from, xi)),* },
+                )
             }
 
             /// The density of coming upon y, per solid angle.
-            #[inline(always)]
+            #[inline(never)]
             pub(crate) fn pdf_of<R: Real>(
                 &self,
                 from: &Vantage<R>,
                 y: &SurfacePoint<R>,
                 xy: &Segment<R>,
             ) -> R {
-                match self { $(Self::$kind(single) => single.pdf_of(from, y, xy)),* }
+                R::apart(
+                    #[inline(always)]
+                    || match self { $(Self::$kind(single) => single.pdf_of(from, y, xy)),* },
+                )
             }
         }
     };

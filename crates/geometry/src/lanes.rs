@@ -321,6 +321,10 @@ impl<S: Simd> Real for Lanes<S> {
         self.0.store_slice(&mut numbers[..LANES]);
     }
     #[inline(always)]
+    fn apart<T>(f: impl FnOnce() -> T) -> T {
+        proof::<S>().vectorize(f)
+    }
+    #[inline(always)]
     fn widen(self) -> [LaneWide<S>; 2] {
         let (low, high) = self.0.widen();
         [LaneWide(low), LaneWide(high)]

@@ -115,6 +115,10 @@ pub trait Real:
     /// Writes the numbers in order to the beginning of a slice.
     fn store(self, numbers: &mut [f32]);
 
+    /// Runs a function in a place of its own, compiled for the same instructions: what many callers share and is too large to
+    /// be inlined into each.
+    fn apart<T>(f: impl FnOnce() -> T) -> T;
+
     /// The numbers widened, in order; zeros after them.
     fn widen(self) -> [Self::Wide; 2];
 
@@ -256,6 +260,10 @@ impl Real for f32 {
     #[inline(always)]
     fn store(self, numbers: &mut [f32]) {
         numbers[0] = self;
+    }
+    #[inline(always)]
+    fn apart<T>(f: impl FnOnce() -> T) -> T {
+        f()
     }
     #[inline(always)]
     fn widen(self) -> [Eight; 2] {

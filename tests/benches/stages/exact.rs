@@ -2,7 +2,7 @@
 
 use criterion::Criterion;
 use twoforms_comparison::exactly;
-use twoforms_estimator::strategy::{Strategy, Weighting};
+use twoforms_estimator::strategy::{Strategy, Team, Weighting};
 use twoforms_tests::worlds;
 
 use crate::clock::CpuTime;
@@ -13,7 +13,7 @@ pub fn benches(criterion: &mut Criterion<CpuTime>) {
     let stage = worlds::stage(SCENE);
     let all = Strategy::all();
     let closed: Vec<Strategy> =
-        all.into_iter().filter(|s| !matches!(s, Strategy::Mis(_) | Strategy::Mixture(_))).collect();
+        all.into_iter().filter(|s| !matches!(s, Strategy::Mis(..) | Strategy::Mixture(..))).collect();
     let balance = [Strategy::Mis(Weighting::Balance, Team::default())];
     let works: [(&str, &[Strategy]); 3] =
         [("irradiance", &[]), ("and closed variances", &closed), ("and mis/balance", &balance)];

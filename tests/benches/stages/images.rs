@@ -3,8 +3,8 @@
 use criterion::{Criterion, Throughput};
 use twoforms_comparison::image::{Crop, PixelFilter, Rendering};
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_tests::worlds;
 
 use crate::SCENE;

@@ -1,13 +1,12 @@
 //! What one sample costs at a receiver, of every strategy that can be sampled.
 
 use criterion::{BenchmarkGroup, Criterion, Throughput};
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimate, Estimator};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::Estimate;
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Kernel, Strategy};
+use twoforms_estimator::strategy::{Kernel, Known, Strategy};
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};
@@ -20,7 +19,7 @@ use crate::{SCENE, cases};
 const N: u32 = 1024;
 
 /// One from each formulation, measured with all instructions that the machine has.
-const BY_ALL: [Strategy; 2] = [Strategy::from(Kind::AreaUniform), Strategy::from(Kind::HemisphereCosine)];
+const BY_ALL: [Technique; 2] = [Technique::of(Kind::AreaUniform), Technique::of(Kind::HemisphereCosine)];
 
 /// An estimate of N samples.
 struct Secondary(Instructions);
@@ -28,10 +27,10 @@ struct Secondary(Instructions);
 impl Kernel for Secondary {
     type Output = Estimate;
 
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Estimate {
+    fn run<E: Estimator>(self, estimator: &E) -> Estimate {
         let draws = Draws { key: Key::new([0]), stream: [N, 0] };
-        let stream = Stream { sampler: Sampler::Independent, draws };
-        estimator.secondary_by(self.0, N, stream).expect("finite samples")
+        let stream = Stream { sampler: Sampler::Independent, draws, n: N };
+        estimator.secondary_by(self.0, stream).expect("finite samples")
     }
 }
 
@@ -49,7 +48,7 @@ pub fn benches(criterion: &mut Criterion<CpuTime>) {
     for strategy in BY_ALL {
         let mut group = group(criterion, &format!("instructions/{strategy}"));
         for instructions in Instructions::all() {
-            bench(&mut group, &name(instructions), &case, strategy, instructions);
+            bench(&mut group, &name(instructions), &case, strategy.into(), instructions);
         }
         group.finish();
     }
@@ -68,8 +67,9 @@ fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instruc
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let query = Query::irradiance(&world.lights);
-    let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-    group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, Secondary(instructions))));
+    let known = twoforms_tests::samples::known(case);
+    let prepared = strategy.prepare(&world.lights);
+    group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, &known, Secondary(instructions))));
 }
 
 /// Scalar, or the name of the vector instructions.

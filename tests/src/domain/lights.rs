@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use twoforms_estimator::measure::{Aim, SolidAngle, SurfaceArea};
-use twoforms_estimator::selection::{Pick, Picker};
+use twoforms_estimator::selection::Picker;
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::View;
 

@@ -228,6 +228,7 @@ mod tests {
 
     use twoforms_estimator::sampler::Sampler;
     use twoforms_estimator::strategy::Strategy;
+    use twoforms_estimator::technique::Kind;
     use twoforms_scene::Scene;
 
     use super::Painter;
@@ -274,7 +275,7 @@ mod tests {
             let camera = world.scene.cameras.first().or(auto.as_ref()).expect("a camera");
             for strategy in Strategy::all() {
                 let rendering = rendering(strategy, strategy != Strategy::from(Kind::HemisphereUniform));
-                let painter = Painter::new(&rendering, &world, camera).expect("a strategy that can be sampled");
+                let painter = Painter::new(&rendering, &world, camera);
                 let beams = rendering.run(&world, camera, &|_| ()).expect("finite samples");
                 let rays = rendering.crop.pixels().map(|[x, y]| painter.pixel(x, y).expect("finite samples"));
                 let differing = beams.iter().zip(rays).filter(|(beam, ray)| differ(beam, ray)).count();

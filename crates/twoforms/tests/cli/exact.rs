@@ -58,13 +58,3 @@ fn the_table_and_the_file_hold_the_strategies_asked_for() {
     assert_eq!(names(&folder), ["exact.txt"]);
     assert_eq!(std::fs::read_to_string(path).expect("a file"), table);
 }
-
-/// A strategy may have an exact variance and no sampler.
-#[test]
-fn what_cannot_be_sampled_points_to_the_exact_command() {
-    let not_sampled = Strategy::all().into_iter().find(|strategy| !strategy.is_sampled());
-    let Some(strategy) = not_sampled else { return };
-    for command in ["compare", "render"] {
-        twoforms(&format!("{command} @cornell-box --strategy {strategy}")).fails(&["no sampler", "twoforms exact"]);
-    }
-}

@@ -135,7 +135,8 @@ impl Picker {
         let width = |k: usize| bounds[k + 1] - bounds[k];
         let mut words = vec![0_u64; weights.len()];
         pieces.iter().enumerate().for_each(|(k, piece)| words[piece.target as usize] += width(k));
-        let of_words = |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
+        let of_words =
+            |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
         let density = words.iter().zip(measure).map(of_words).collect();
         let share =
             |k: usize| Share { first: bounds[k] as u32, piece: k as u32, scale: (1.0 / width(k) as f64) as f32 };
@@ -210,12 +211,6 @@ impl Picker {
         );
         let (first, piece) = (self.first::<R>(share), self.piece::<R>(share));
         (piece, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
-    }
-
-    /// Whether there is a single target, in one piece.
-    #[inline(always)]
-    pub fn is_single(&self) -> bool {
-        self.density.len() == 1 && matches!(self.shares[..], [Share { piece: 0, .. }])
     }
 
     /// The probability of picking a target over its measure.

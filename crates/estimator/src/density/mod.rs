@@ -3,12 +3,14 @@
 mod along;
 mod hemisphere;
 mod lights;
+mod one_target;
 mod solid_angle;
 mod spherical_triangle;
 mod toward;
 
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use one_target::OnOneTarget;
 pub use solid_angle::{BySolidAngle, SolidAngleOnLights, spherical_triangles};
 pub use spherical_triangle::SphericalTriangle;
 pub use toward::{TowardLights, TowardPreparedLights};
@@ -48,4 +50,17 @@ pub trait Ready: Sized + Send + Sync {
 
     /// The density at x.
     fn at<'a>(&'a self, view: &View, lights: &Lights) -> Self::At<'a>;
+
+    /// Hands the density at x to a kernel: that of [`Ready::at`], or a simpler one that draws the same points.
+    fn with<K: DensityKernel<Self::Measure>>(&self, view: &View, lights: &Lights, kernel: K) -> K::Output {
+        kernel.run(self.at(view, lights))
+    }
+}
+
+/// Something to do with a density, whichever it is.
+pub trait DensityKernel<M: Measure> {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run<D: Density<M>>(self, density: D) -> Self::Output;
 }

@@ -7,10 +7,10 @@ use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
+use super::Ready;
 use super::along;
 use super::lights::{OnLights, Spread};
 use super::spherical_triangle::{self, SphericalTriangle};
-use super::Ready;
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
 use crate::selection::{Picker, Piece, Selection};

@@ -92,7 +92,7 @@ impl Prepared {
     ) -> K::Output {
         let at = |k: usize| self.techniques[k].at(view, query);
         match self.strategy {
-            Strategy::Single(_) => at(0).run(OfSingle(kernel)),
+            Strategy::Single(_) => self.techniques[0].run(view, query, OfSingle(kernel)),
             Strategy::Mis(weighting, team) => {
                 let team = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
                 let alpha = known.alpha.iter().flatten().map(|alpha| alpha.map(|alpha| alpha as f32));

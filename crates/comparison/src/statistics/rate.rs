@@ -1,5 +1,7 @@
 //! The rate at which variance falls with the number of samples.
 
+use std::fmt;
+
 use super::log_variance::LogVariance;
 use super::reason::Reason;
 use super::student::Z_95;
@@ -22,6 +24,38 @@ pub struct RateFit {
     pub birge: f64,
     /// Name of the one regime of [`REGIMES`] whose slope lies in the interval, or why there is none.
     pub regime: Result<&'static str, Reason>,
+    /// All regimes whose slopes lie in the interval.
+    pub candidates: Candidates,
+}
+
+/// Some of the [`REGIMES`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Candidates([bool; REGIMES.len()]);
+
+impl Candidates {
+    /// Those whose slopes lie in the interval.
+    fn within([lo, hi]: [f64; 2]) -> Self {
+        Self(REGIMES.map(|(slope, _)| lo <= slope && slope <= hi))
+    }
+
+    /// Their names.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        REGIMES.into_iter().zip(self.0).filter(|(_, inside)| *inside).map(|((_, name), _)| name)
+    }
+
+    /// The only one, or why there is none.
+    fn only(self) -> Result<&'static str, Reason> {
+        let mut names = self.names();
+        let first = names.next().ok_or(Reason::NoRegime)?;
+        if names.next().is_none() { Ok(first) } else { Err(Reason::SeveralRegimes { found: self }) }
+    }
+}
+
+/// `1/N^1.5 or 1/N^2`.
+impl fmt::Display for Candidates {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.names().collect::<Vec<_>>().join(" or "))
+    }
 }
 
 /// Slope of ln s² against ln N by least squares, weighted by the known errors of ln s².
@@ -41,7 +75,8 @@ pub fn fit_rate(points: &[(u64, LogVariance)]) -> Result<RateFit, Reason> {
     let birge = line.birge(points);
     let half = Z_95 * line.standard_error * birge;
     let interval = [line.slope - half, line.slope + half];
-    Ok(RateFit { slope: line.slope, interval, birge, regime: regime(interval) })
+    let candidates = Candidates::within(interval);
+    Ok(RateFit { slope: line.slope, interval, birge, regime: candidates.only(), candidates })
 }
 
 struct Line {
@@ -82,15 +117,6 @@ fn distinct(points: &[(u64, LogVariance)]) -> usize {
     counts.len()
 }
 
-fn regime([lo, hi]: [f64; 2]) -> Result<&'static str, Reason> {
-    let inside: Vec<&'static str> = REGIMES.iter().filter(|(s, _)| lo <= *s && *s <= hi).map(|r| r.1).collect();
-    match inside[..] {
-        [] => Err(Reason::NoRegime),
-        [name] => Ok(name),
-        _ => Err(Reason::SeveralRegimes { found: inside.len() }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,7 +143,10 @@ mod tests {
     #[test]
     fn a_wide_interval_has_no_name_and_neither_has_a_strange_slope() {
         let two = [point(1, 1.0, 40), point(2, 0.4, 40)];
-        assert_eq!(fit_rate(&two).map(|fit| fit.regime), Ok(Err(Reason::SeveralRegimes { found: 2 })));
+        let undecided = fit_rate(&two).map(|fit| fit.regime);
+        assert!(
+            matches!(undecided, Ok(Err(Reason::SeveralRegimes { found })) if found.to_string() == "1/N or 1/N^1.5")
+        );
         assert_eq!(fit_rate(&power_law(-2.5, 1000)).map(|fit| fit.regime), Ok(Err(Reason::NoRegime)));
     }
 

@@ -10,8 +10,13 @@ use super::student::Z_95;
 ///
 /// −1: independent samples. −3/2: jittered samples across a discontinuity in two dimensions (Mitchell 1996).
 /// −2: jittered samples of a smooth function in two dimensions, or stratified ones across a jump in one.
-/// −3: stratified samples of a smooth function in one dimension, and scrambled nets up to logarithms (Owen 1997).
+/// −3: stratified samples of a smooth function in one dimension, and scrambled nets in two up to a logarithm (Owen 1997).
+/// A net of N = 2^k points fills k + 1 shapes of intervals, so that any slope from that of N⁻³ to that of
+/// (1 + log₂ N) N⁻³, fitted to the same N, is of that regime.
 pub const REGIMES: [(f64, &str); 4] = [(-1.0, "1/N"), (-1.5, "1/N^1.5"), (-2.0, "1/N^2"), (-3.0, "1/N^3")];
+
+/// The slope that scrambled nets have up to a logarithm.
+const NET: f64 = -3.0;
 
 /// The fitted line's slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,9 +38,10 @@ pub struct RateFit {
 pub struct Candidates([bool; REGIMES.len()]);
 
 impl Candidates {
-    /// Those whose slopes lie in the interval.
-    fn within([lo, hi]: [f64; 2]) -> Self {
-        Self(REGIMES.map(|(slope, _)| lo <= slope && slope <= hi))
+    /// Those whose slopes lie in the interval; `logarithm` is what a factor 1 + log₂ N adds to a slope.
+    fn within([lo, hi]: [f64; 2], logarithm: f64) -> Self {
+        let most = |slope: f64| if slope == NET { slope + logarithm } else { slope };
+        Self(REGIMES.map(|(slope, _)| lo <= most(slope) && slope <= hi))
     }
 
     /// Their names.
@@ -75,7 +81,7 @@ pub fn fit_rate(points: &[(u64, LogVariance)]) -> Result<RateFit, Reason> {
     let birge = line.birge(points);
     let half = Z_95 * line.standard_error * birge;
     let interval = [line.slope - half, line.slope + half];
-    let candidates = Candidates::within(interval);
+    let candidates = Candidates::within(interval, line.logarithm(points));
     Ok(RateFit { slope: line.slope, interval, birge, regime: candidates.only(), candidates })
 }
 
@@ -91,6 +97,14 @@ impl Line {
         let centre @ [x_mean, y_mean] = [sum_x / total, sum_y / total];
         let [s_xx, s_xy] = sums(points, |x, y| [(x - x_mean) * (x - x_mean), (x - x_mean) * (y - y_mean)]);
         (distinct(points) > 1).then(|| Self { slope: s_xy / s_xx, standard_error: 1.0 / s_xx.sqrt(), centre })
+    }
+
+    /// The slope of ln (1 + log₂ N) through the same points.
+    fn logarithm(&self, points: &[(u64, LogVariance)]) -> f64 {
+        let [x_mean, _] = self.centre;
+        let factor = |x: f64| libm::log(1.0 + x / std::f64::consts::LN_2);
+        let [s_xx, s_xf] = sums(points, |x, _| [(x - x_mean) * (x - x_mean), (x - x_mean) * factor(x)]);
+        s_xf / s_xx
     }
 
     fn birge(&self, points: &[(u64, LogVariance)]) -> f64 {
@@ -148,6 +162,16 @@ mod tests {
             matches!(undecided, Ok(Err(Reason::SeveralRegimes { found })) if found.to_string() == "1/N or 1/N^1.5")
         );
         assert_eq!(fit_rate(&power_law(-2.5, 1000)).map(|fit| fit.regime), Ok(Err(Reason::NoRegime)));
+    }
+
+    #[test]
+    fn a_logarithm_is_no_other_regime() {
+        let net = [4, 16, 64, 256].map(|n: u64| {
+            let size = n as f64;
+            point(n, (1.0 + size.log2()) * size.powi(-3), 1000)
+        });
+        let fit = fit_rate(&net).expect("four points");
+        assert!(fit.slope > -2.8 && fit.regime == Ok("1/N^3"), "{fit:?}");
     }
 
     #[test]

@@ -123,9 +123,8 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
     let seconds = measured.seconds / replicates as f64;
     let random = plan.sampler.is_random();
     let variance = sample_variance(&measured.estimates);
-    let variance_of_mean = or_why(&mut why, "variance_of_mean", variance, || match random {
-        true => "a variance needs at least two replicates".into(),
-        false => NO_CHANCE.into(),
+    let variance_of_mean = or_why(&mut why, "variance_of_mean", variance, || {
+        if random { "a variance needs at least two replicates".into() } else { NO_CHANCE.into() }
     });
     let interval =
         interval(plan, measured).map_err(|reason| if random { reason.to_string() } else { NO_CHANCE.into() });

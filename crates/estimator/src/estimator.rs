@@ -154,11 +154,13 @@ impl<E: Estimator> Kernel for Secondary<'_, E> {
         let mut divisor = [0.0; 3];
         for start in (first..end).step_by(BATCH) {
             let length = BATCH.min((end - start) as usize);
-            (batch.length, batch.rays) = (length, 0);
+            batch.length = length;
             self.stream.fill(self.instructions, start, length, &mut batch.numbers);
+            let mut rays = R::Word::splat(0);
             for offset in (0..length).step_by(R::LANES) {
-                self.evaluate::<R>(offset, &mut batch);
+                rays = rays.wrapping_add(self.evaluate::<R>(offset, &mut batch));
             }
+            batch.rays = u64::from(rays.sum());
             estimate.add::<R::Wide>(&batch).map_err(|offset| batch.not_finite(start, offset))?;
             if E::QUOTIENT {
                 batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..length]));
@@ -170,9 +172,9 @@ impl<E: Estimator> Kernel for Secondary<'_, E> {
 }
 
 impl<E: Estimator> Secondary<'_, E> {
-    /// Samples that lie side by side, from `offset` of the batch on.
+    /// Samples that lie side by side, from `offset` of the batch on; answers with the rays they asked for.
     #[inline(always)]
-    fn evaluate<R: Real>(&self, offset: usize, batch: &mut Batch) {
+    fn evaluate<R: Real>(&self, offset: usize, batch: &mut Batch) -> R::Word {
         let wanted = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
         let from = self.estimator.view().from_x::<R>().only(wanted);
         let drawn = batch.numbers.from(offset);
@@ -187,7 +189,7 @@ impl<E: Estimator> Secondary<'_, E> {
         for c in 0..3 {
             worth[c].store(&mut batch.worth[c][offset..]);
         }
-        batch.rays += u64::from(rays.sum());
+        rays
     }
 }
 

@@ -54,13 +54,14 @@ impl Selection {
     }
 }
 
-/// A discrete distribution over targets, drawn from by inversion of its CDF in scene order.
+/// A discrete distribution over targets, drawn from by inversion of its CDF in scene order. Where targets fall into pieces,
+/// a piece is drawn, in proportion to its part of the target's measure.
 ///
 /// Probabilities are whole multiples of 2⁻³², at least one for every target that has any, and the very same numbers
 /// serve as density, so nothing is lost to rounding: E\[f/p\] holds exactly.
 #[derive(Clone, Debug)]
 pub struct Picker {
-    /// The targets that have a probability, in scene order.
+    /// The pieces that have a probability, in scene order.
     shares: Vec<Share>,
     /// For each value of a word's leading bits, the share that the least such word picks: where a search begins (Chen and
     /// Asau 1974, "On generating random variates from an empirical distribution").
@@ -71,11 +72,20 @@ pub struct Picker {
     density: Vec<f32>,
 }
 
-/// The words that pick one target: from the first up to that of the next share.
+/// A part of a target that points are drawn on by a map of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// The target that it is part of.
+    pub target: u32,
+    /// How much of the measure it holds, in which points are uniform over it.
+    pub measure: f64,
+}
+
+/// The words that pick one piece: from the first up to that of the next share.
 #[derive(Clone, Copy, Debug)]
 struct Share {
     first: u32,
-    target: u32,
+    piece: u32,
     /// 1 / (number of words).
     scale: f32,
 }
@@ -93,7 +103,20 @@ impl Picker {
         measure: &[f64],
         contributions: impl FnOnce() -> Vec<f64>,
     ) -> Self {
-        Self::of(&selection.weights(lights, measure, contributions), measure)
+        let whole = |(k, &measure): (usize, &f64)| Piece { target: k as u32, measure };
+        Self::over(selection, lights, &measure.iter().enumerate().map(whole).collect::<Vec<_>>(), contributions)
+    }
+
+    /// The same over the pieces that the targets fall into, in scene order.
+    pub fn over(
+        selection: Selection,
+        lights: &Lights,
+        pieces: &[Piece],
+        contributions: impl FnOnce() -> Vec<f64>,
+    ) -> Self {
+        let mut measure = vec![0.0; lights.targets()];
+        pieces.iter().for_each(|piece| measure[piece.target as usize] += piece.measure);
+        Self::of(&selection.weights(lights, &measure, contributions), &measure, pieces)
     }
 
     /// The distribution over the area of the targets, the same for every x; `None` where the selection depends on x.
@@ -101,19 +124,25 @@ impl Picker {
         (!selection.depends_on_x()).then(|| Self::new(selection, lights, lights.areas(), Vec::new))
     }
 
-    /// The distribution with these weights, each target being of this measure. Where no weight is positive, a target of
-    /// density zero is picked.
-    fn of(weights: &[f64], measure: &[f64]) -> Self {
-        let bounds = bounds(weights);
+    /// The distribution with these weights of targets, each being of this measure in all. Where no weight is positive, the
+    /// first piece of a target of density zero is picked.
+    fn of(weights: &[f64], measure: &[f64], pieces: &[Piece]) -> Self {
+        let weight = |piece: &Piece| {
+            let target = piece.target as usize;
+            if piece.measure > 0.0 { weights[target] * (piece.measure / measure[target]) } else { 0.0 }
+        };
+        let bounds = bounds(&pieces.iter().map(weight).collect::<Vec<_>>());
         let width = |k: usize| bounds[k + 1] - bounds[k];
-        let density = measure.iter().enumerate();
-        let of_words = |words: u64, m: f64| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
-        let density = density.map(|(k, &m)| of_words(width(k), m)).collect();
+        let mut words = vec![0_u64; weights.len()];
+        pieces.iter().enumerate().for_each(|(k, piece)| words[piece.target as usize] += width(k));
+        let of_words =
+            |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
+        let density = words.iter().zip(measure).map(of_words).collect();
         let share =
-            |k: usize| Share { first: bounds[k] as u32, target: k as u32, scale: (1.0 / width(k) as f64) as f32 };
-        let mut shares: Vec<Share> = (0..weights.len()).filter(|&k| width(k) > 0).map(share).collect();
+            |k: usize| Share { first: bounds[k] as u32, piece: k as u32, scale: (1.0 / width(k) as f64) as f32 };
+        let mut shares: Vec<Share> = (0..pieces.len()).filter(|&k| width(k) > 0).map(share).collect();
         if shares.is_empty() {
-            shares.push(Share { first: 0, target: 0, scale: 1.0 / WORDS as f32 });
+            shares.push(Share { first: 0, piece: 0, scale: 1.0 / WORDS as f32 });
         }
         let leading = usize::BITS - shares.len().leading_zeros();
         let trailing = u32::BITS - leading;
@@ -158,21 +187,21 @@ impl Picker {
     }
 
     #[inline(always)]
-    fn target<R: Real>(&self, share: R::Word) -> R::Word {
+    fn piece<R: Real>(&self, share: R::Word) -> R::Word {
         R::gather_word(
             share,
             #[inline(always)]
-            |k| self.shares[k as usize].target,
+            |k| self.shares[k as usize].piece,
         )
     }
 }
 
 impl Picker {
-    /// The target that a random word picks, and the word rescaled to a uniform number.
+    /// The piece that a random word picks, and the word rescaled to a uniform number. Targets that are whole are each a piece.
     #[inline(always)]
     pub fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
         if let [only] = self.shares[..] {
-            return (R::Word::splat(only.target), unit(word));
+            return (R::Word::splat(only.piece), unit(word));
         }
         let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
         let [scale] = R::gather(
@@ -180,8 +209,14 @@ impl Picker {
             #[inline(always)]
             |k| [self.shares[k as usize].scale],
         );
-        let (first, target) = (self.first::<R>(share), self.target::<R>(share));
-        (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+        let (first, piece) = (self.first::<R>(share), self.piece::<R>(share));
+        (piece, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+    }
+
+    /// Whether there is a single target, in one piece.
+    #[inline(always)]
+    pub fn is_single(&self) -> bool {
+        self.density.len() == 1 && matches!(self.shares[..], [Share { piece: 0, .. }])
     }
 
     /// The probability of picking a target over its measure.

@@ -7,7 +7,9 @@ use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
-use crate::density::{AreaOnLights, CosineHemisphere, Density, Ready, TowardPreparedLights, UniformHemisphere};
+use crate::density::{
+    AreaOnLights, CosineHemisphere, Density, Ready, SolidAngleOnLights, TowardPreparedLights, UniformHemisphere,
+};
 use crate::estimator::Single;
 use crate::formulation::{Area, Formulation, Hemisphere};
 use crate::lights::Lights;
@@ -147,6 +149,8 @@ techniques! {
     HemisphereTowardLights: Hemisphere, TowardPreparedLights = "hemisphere/toward-lights" @selection,
     /// Points on the lights, uniform over their area.
     AreaUniform: Area, AreaOnLights = "area/uniform" @selection,
+    /// Points on the targets that face x, uniform in solid angle.
+    AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

@@ -48,6 +48,7 @@ impl Sight {
             Kind::HemisphereUniform => Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2]))),
             Kind::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
+            Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
         }
     }
 

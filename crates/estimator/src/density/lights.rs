@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::Real;
+use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::{Vantage, View};
 
@@ -16,10 +16,10 @@ use crate::xi::Xi;
 /// A measure in which points are uniform over a target: a map from the unit square, and how much of the measure there is per
 /// area.
 pub trait Spread: Sync {
-    /// The point of a target that two uniform numbers pick.
-    fn point<R: Real>(&self, from: &Vantage<R>, target: R::Word, uv: [R; 2]) -> SurfacePoint<R>;
+    /// The point of a target, or of a piece of one, that two uniform numbers pick.
+    fn point<R: Real>(&self, from: &Vantage<R>, piece: R::Word, uv: [R; 2]) -> SurfacePoint<R>;
 
-    /// dm/dA at y: how much of the measure there is per square metre of the target.
+    /// dm/dA at y: how much of the measure there is per square metre of the target; not positive where there is none.
     fn per_area<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> R;
 }
 
@@ -35,15 +35,20 @@ pub struct OnLights<'p, S> {
 impl<S: Spread> Density<SurfaceArea> for OnLights<'_, S> {
     #[inline(always)]
     fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
-        let (target, u) = self.picker.pick::<R>(xi.pick());
-        let at = self.spread.point(from, target, [u, xi.v()]);
+        let (piece, u) = if self.picker.is_single() {
+            let [u, _] = xi.uv();
+            (R::Word::splat(0), u)
+        } else {
+            self.picker.pick::<R>(xi.pick())
+        };
+        let at = self.spread.point(from, piece, [u, xi.v()]);
         self.pdf(from, &at).map(|pdf| Sample { at, pdf })
     }
 
     #[inline(always)]
     fn pdf<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
-        let density = self.picker.density::<R>(y.target);
-        Masked::new(Pdf::new(density * self.spread.per_area(from, y)), R::zero().lt(density))
+        let pdf = self.picker.density::<R>(y.target) * self.spread.per_area(from, y);
+        Masked::new(Pdf::new(pdf), R::zero().lt(pdf))
     }
 }
 

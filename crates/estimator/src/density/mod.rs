@@ -1,11 +1,16 @@
 //! Densities: what points are drawn from, and how. A density knows its measure and nothing of the integrand.
 
+mod along;
 mod hemisphere;
 mod lights;
+mod solid_angle;
+mod spherical_triangle;
 mod toward;
 
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use solid_angle::{BySolidAngle, SolidAngleOnLights, spherical_triangles};
+pub use spherical_triangle::SphericalTriangle;
 pub use toward::{TowardLights, TowardPreparedLights};
 
 use twoforms_geometry::masked::Masked;

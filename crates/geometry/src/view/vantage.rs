@@ -45,6 +45,11 @@ impl<'v, R: Real> Vantage<'v, R> {
     pub fn facet(&self, target: R::Word) -> Facet<R> {
         let view = self.view;
         let facet = Facet::from_row(match &view.sights {
+            Some(sights) if sights.len() == 1 => R::gather(
+                R::Word::splat(0),
+                #[inline(always)]
+                |_| sights[0].row(),
+            ),
             Some(sights) => R::gather(
                 target,
                 #[inline(always)]
@@ -118,6 +123,9 @@ impl<'v, R: Real> Vantage<'v, R> {
         let Some(sights) = &self.view.sights else {
             return self.clear_by_ray(y.position, y.target, asked);
         };
+        if let [sight] = &sights[..] {
+            return self.unblocked(sight, y.position, y.target, asked);
+        }
         let mut visible = R::Mask::splat(false);
         for (k, sight) in sights.iter().enumerate() {
             let here = asked & R::same(y.target, R::Word::splat(k as u32));

@@ -21,7 +21,7 @@ const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 4
 #[derive(Clone, Copy, Debug)]
 pub struct Bases {
     n: u32,
-    bases: [Base; 2],
+    numbers: [Base; 2],
     /// Whether the primes are taken for the first time.
     first: bool,
 }
@@ -78,11 +78,11 @@ impl Spread for Halton {
     fn plan(n: u32, pair: u32) -> Bases {
         let dimension = 2 * pair as usize;
         let base = |dimension: usize| Base::new(PRIMES[dimension % PRIMES.len()], n);
-        Bases { n, bases: [base(dimension), base(dimension + 1)], first: dimension < PRIMES.len() }
+        Bases { n, numbers: [base(dimension), base(dimension + 1)], first: dimension < PRIMES.len() }
     }
 
     #[inline(always)]
-    fn pair<R: Real>(Bases { n, bases: [one, other], first }: &Bases, place: &Place<R>) -> [R::Word; 2] {
+    fn pair<R: Real>(Bases { n, numbers: [one, other], first }: &Bases, place: &Place<R>) -> [R::Word; 2] {
         let [a, b, ..] = place.seed;
         let [order, _] = place.order(*first);
         let index = permute::<R>(place.index, *n, order);

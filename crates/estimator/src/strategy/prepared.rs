@@ -55,6 +55,15 @@ impl Strategy {
         }
     }
 
+    /// Pairs of random numbers that a sample takes.
+    pub fn pairs(self) -> usize {
+        match self {
+            Self::Mis(_, team) => team.members().map(|member| member.samples as usize).sum(),
+            Self::Resampled(candidates) => candidates as usize + 1,
+            _ => 1,
+        }
+    }
+
     /// The techniques that it draws samples of.
     pub fn techniques(self) -> Vec<Technique> {
         match self {

@@ -81,7 +81,9 @@ fn halton_fills_the_strata_of_its_bases() {
                 let strata = if n == base { base } else { base * base };
                 let points = points(&stream(named("halton"), n, 5, 3), pair);
                 let mut held = vec![0; strata as usize];
-                points.iter().for_each(|point| held[stratum(point[axis], strata) as usize] += 1);
+                for point in &points {
+                    held[stratum(point[axis], strata) as usize] += 1;
+                }
                 assert!(held.iter().all(|&held| held == n / strata), "base {base}, {n} points: {held:?}");
             }
         }

@@ -1,7 +1,8 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, CosineHemisphere, Density, Ready, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    TowardPreparedLights, UniformHemisphere,
 };
 use twoforms_estimator::lights::Lights;
 use twoforms_estimator::measure::Measure;
@@ -34,6 +35,16 @@ pub fn visit<V: Visitor>(technique: Technique, lights: &Lights, view: &View, vis
             let ready = AreaOnLights::prepare(lights, selection);
             let density = ready.at(view, lights);
             visitor.visit(view, &density, &LightCells::new(view, &density.picker))
+        }
+        Kind::AreaSolidAngle => {
+            let ready = SolidAngleOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
+        }
+        Kind::AreaProjectedSolidAngle => {
+            let ready = ProjectedSolidAngleOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
         }
     }
 }

@@ -39,18 +39,20 @@ impl Selection {
         self == Self::Contribution
     }
 
-    /// The probability of each target, up to a common factor: that of its light, then its share of the light's `measure`.
+    /// The probability of each target, up to a common factor: that of its light, then its share of the light's `measure`;
+    /// and that of lights that have no measure.
     /// `contributions` are the unoccluded irradiances of the targets at x, luminance, asked for where they count.
-    fn weights(self, lights: &Lights, measure: &[f64], contributions: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+    fn weights(self, lights: &Lights, measure: &[f64], contributions: impl FnOnce() -> Vec<f64>) -> (Vec<f64>, f64) {
         let whole = lights.sums(measure);
         let of_light = match self {
-            Self::Together => return measure.to_vec(),
+            Self::Together => return (measure.to_vec(), 0.0),
             Self::Uniform => vec![1.0; whole.len()],
             Self::Power => lights.powers().to_vec(),
             Self::Contribution => lights.sums(&contributions()),
         };
         let share = |(&light, &m): (&usize, &f64)| if m > 0.0 { of_light[light] * m / whole[light] } else { 0.0 };
-        lights.light_of_target().iter().zip(measure).map(share).collect()
+        let empty = of_light.iter().zip(&whole).filter(|&(_, &whole)| whole <= 0.0);
+        (lights.light_of_target().iter().zip(measure).map(share).collect(), empty.map(|(of_light, _)| of_light).sum())
     }
 }
 
@@ -107,7 +109,8 @@ impl Picker {
         Self::over(selection, lights, &measure.iter().enumerate().map(whole).collect::<Vec<_>>(), contributions)
     }
 
-    /// The same over the pieces that the targets fall into, in scene order.
+    /// The same over the pieces that the targets fall into, in scene order. Where a light is picked that has none, a piece
+    /// beyond the last is drawn.
     pub fn over(
         selection: Selection,
         lights: &Lights,
@@ -116,7 +119,8 @@ impl Picker {
     ) -> Self {
         let mut measure = vec![0.0; lights.targets()];
         pieces.iter().for_each(|piece| measure[piece.target as usize] += piece.measure);
-        Self::of(&selection.weights(lights, &measure, contributions), &measure, pieces)
+        let (weights, empty) = selection.weights(lights, &measure, contributions);
+        Self::of(&weights, empty, &measure, pieces)
     }
 
     /// The distribution over the area of the targets, the same for every x; `None` where the selection depends on x.
@@ -124,14 +128,14 @@ impl Picker {
         (!selection.depends_on_x()).then(|| Self::new(selection, lights, lights.areas(), Vec::new))
     }
 
-    /// The distribution with these weights of targets, each being of this measure in all. Where no weight is positive, the
-    /// first piece of a target of density zero is picked.
-    fn of(weights: &[f64], measure: &[f64], pieces: &[Piece]) -> Self {
+    /// The distribution with these weights of targets, each being of this measure in all, and of nothing. Where no weight is
+    /// positive, the first piece is picked, whose target then has density zero.
+    fn of(weights: &[f64], nothing: f64, measure: &[f64], pieces: &[Piece]) -> Self {
         let weight = |piece: &Piece| {
             let target = piece.target as usize;
             if piece.measure > 0.0 { weights[target] * (piece.measure / measure[target]) } else { 0.0 }
         };
-        let bounds = bounds(&pieces.iter().map(weight).collect::<Vec<_>>());
+        let bounds = bounds(&pieces.iter().map(weight).chain([nothing]).collect::<Vec<_>>());
         let width = |k: usize| bounds[k + 1] - bounds[k];
         let mut words = vec![0_u64; weights.len()];
         pieces.iter().enumerate().for_each(|(k, piece)| words[piece.target as usize] += width(k));
@@ -140,7 +144,7 @@ impl Picker {
         let density = words.iter().zip(measure).map(of_words).collect();
         let share =
             |k: usize| Share { first: bounds[k] as u32, piece: k as u32, scale: (1.0 / width(k) as f64) as f32 };
-        let mut shares: Vec<Share> = (0..pieces.len()).filter(|&k| width(k) > 0).map(share).collect();
+        let mut shares: Vec<Share> = (0..=pieces.len()).filter(|&k| width(k) > 0).map(share).collect();
         if shares.is_empty() {
             shares.push(Share { first: 0, piece: 0, scale: 1.0 / WORDS as f32 });
         }

@@ -9,8 +9,8 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, CosineHemisphere, Density, DensityKernel, Ready, SolidAngleOnLights, TowardPreparedLights,
-    UniformHemisphere,
+    AreaOnLights, CosineHemisphere, Density, DensityKernel, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    TowardPreparedLights, UniformHemisphere,
 };
 use crate::estimator::Single;
 use crate::formulation::{Area, Formulation, Hemisphere};
@@ -168,6 +168,8 @@ techniques! {
     AreaUniform: Area, AreaOnLights = "area/uniform" @selection,
     /// Points on the targets that face x, uniform in solid angle.
     AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
+    /// Points on what rises above the horizon of the targets that face x, uniform in projected solid angle.
+    AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
 }
 
 /// A kernel for an estimator, for that of a formulation with a density.

@@ -49,6 +49,7 @@ impl Sight {
             Kind::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
+            Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
         }
     }
 

@@ -308,9 +308,45 @@ pub fn sin_cos_turns<R: Real>(t: R) -> (R, R) {
     (R::select(negate_sin, -s, s), R::select(negate_cos, -c, c))
 }
 
+/// x − atan x for x in \[0, 1\], to 5·10⁻⁷ of itself: what an arc tangent lacks of its argument, which loses no digits where x
+/// is small.
+///
+/// x³ times a polynomial in x² that interpolates it at the Chebyshev nodes.
+#[inline(always)]
+pub fn arctan_defect<R: Real>(x: R) -> R {
+    let number = R::splat;
+    let x2 = x * x;
+    let sum = number(-0.003_866_738_9);
+    let sum = sum * x2 + number(0.020_026_747);
+    let sum = sum * x2 + number(-0.048_914_32);
+    let sum = sum * x2 + number(0.080_096_82);
+    let sum = sum * x2 + number(-0.108_657_59);
+    let sum = sum * x2 + number(0.142_570_45);
+    let sum = sum * x2 + number(-0.199_986_82);
+    let sum = sum * x2 + number(0.333_333_22);
+    x * x2 * sum
+}
+
+/// x, or `least` where x is below it or not a number.
+#[inline(always)]
+pub fn at_least<R: Real>(x: R, least: R) -> R {
+    R::select(least.lt(x), x, least)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::sin_cos_turns;
+    use super::{arctan_defect, sin_cos_turns};
+
+    #[test]
+    fn the_arctangent_s_defect_holds_its_stated_error() {
+        let worst = (1..=1 << 16)
+            .map(|k| k as f32 / 65_536.0)
+            .map(|x| (arctan_defect(x), f64::from(x)))
+            .map(|(y, x)| (f64::from(y), if x < 0.01 { x.powi(3) * (1.0 / 3.0 - x * x / 5.0) } else { x - x.atan() }))
+            .map(|(y, y0)| (y / y0 - 1.0).abs())
+            .fold(0.0, f64::max);
+        assert!(worst < 5e-7, "worst error {worst:e}");
+    }
 
     #[test]
     fn sine_and_cosine_hold_their_stated_error() {

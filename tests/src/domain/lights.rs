@@ -19,13 +19,20 @@ const FINE: usize = 8;
 pub struct LightCells<'p> {
     charts: Vec<Chart>,
     picker: &'p Picker,
+    resolution: f64,
 }
 
 impl<'p> LightCells<'p> {
     /// The targets as `view` meets them, picked by `picker`.
     pub fn new(view: &View, picker: &'p Picker) -> Self {
         let targets = 0..view.geometry().targets().len() as u32;
-        Self { charts: targets.map(|k| Chart::new(view, k)).collect(), picker }
+        Self { charts: targets.map(|k| Chart::new(view, k)).collect(), picker, resolution: 1e-6 }
+    }
+
+    /// The same for a density that varies over a target, and ends where it meets the horizon: what patches that are wide as x
+    /// sees them, or cut by the horizon, may add.
+    pub fn varying(view: &View, picker: &'p Picker) -> Self {
+        Self { resolution: 5e-3, ..Self::new(view, picker) }
     }
 
     fn cell(&self, target: u32, point: DVec3) -> usize {
@@ -75,13 +82,14 @@ impl Domain<SurfaceArea> for LightCells<'_> {
         Vec::new()
     }
 
-    /// A point is always drawn, whether it faces x or not.
+    /// A point is always drawn, whether it faces x or not, where any target can be picked.
     fn mass(&self) -> f64 {
-        1.0
+        let picked = |chart: &Chart| self.picker.density::<f32>(chart.index()) > 0.0;
+        if self.charts.iter().any(picked) { 1.0 } else { 0.0 }
     }
 
     fn resolution(&self) -> f64 {
-        1e-6
+        self.resolution
     }
 }
 

@@ -18,7 +18,7 @@ use crate::selection::{Picker, Piece, Selection};
 const DIRECTION: usize = spherical_triangle::ROW;
 const ROW: usize = DIRECTION + along::ROW;
 
-/// Solid angle, not cut by the horizon, over the targets that face x: each a spherical triangle, two for a parallelogram, more
+/// Solid angle, not cut by the horizon, over the targets that face x and rise above its horizon: each a spherical triangle, two for a parallelogram, more
 /// where they are huge.
 #[derive(Clone, Debug)]
 pub struct BySolidAngle {
@@ -27,23 +27,23 @@ pub struct BySolidAngle {
 }
 
 impl BySolidAngle {
-    /// The targets that face x, and the pieces that they fall into.
+    /// The targets that face x and rise above its horizon, and the pieces that they fall into.
     fn new(view: &View) -> (Self, Vec<Piece>) {
         let (mut spread, mut pieces) = (Self { triangles: Vec::new(), targets: Vec::new() }, Vec::new());
         for target in 0..view.geometry().targets().len() as u32 {
             view.facing(target, |corners| {
+                if corners.iter().all(|corner| corner.z <= 0.0) {
+                    return;
+                }
                 each_triangle(corners, |triangle| {
                     pieces.push(Piece { target, measure: triangle.solid_angle() });
                     spread.push(target, &triangle, corners);
                 });
             });
         }
-        if pieces.is_empty() {
-            // Never drawn: all of its density is zero.
-            pieces.push(Piece { target: 0, measure: 0.0 });
-            spread.triangles.push([0.0; ROW]);
-            spread.targets.push(0);
-        }
+        // Beyond the last: a point that is none, since all of its depth is zero.
+        spread.triangles.push([0.0; ROW]);
+        spread.targets.push(0);
         (spread, pieces)
     }
 

@@ -1,14 +1,15 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, CosineHemisphere, Density, Ready, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use twoforms_estimator::lights::Lights;
 use twoforms_estimator::measure::Measure;
 use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_geometry::view::View;
 
-use crate::domain::{Domain, HemisphereCells, LightCells};
+use crate::domain::{Domain, HemisphereCells, LightCells, LitDirections};
 
 /// Something to do with a density, whichever it is.
 pub trait Visitor {
@@ -30,10 +31,25 @@ pub fn visit<V: Visitor>(technique: Technique, lights: &Lights, view: &View, vis
             let density = ready.at(view, lights);
             visitor.visit(view, &density, &LightCells::new(view, &density.lights.picker))
         }
+        Kind::HemisphereTowardLightsMarginal => {
+            let ready = TowardLightsMarginally::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LitDirections::new(view, &density.lights.picker))
+        }
         Kind::AreaUniform => {
             let ready = AreaOnLights::prepare(lights, selection);
             let density = ready.at(view, lights);
             visitor.visit(view, &density, &LightCells::new(view, &density.picker))
+        }
+        Kind::AreaSolidAngle => {
+            let ready = SolidAngleOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
+        }
+        Kind::AreaProjectedSolidAngle => {
+            let ready = ProjectedSolidAngleOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
         }
     }
 }

@@ -10,6 +10,7 @@ use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
 use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::technique::Kind;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};

@@ -7,7 +7,6 @@ use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
 use twoforms_comparison::viewpoint;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::Selection;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::Kind;
 use twoforms_scene::Camera;

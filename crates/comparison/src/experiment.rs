@@ -61,6 +61,7 @@ impl Experiment {
         if let Some(why) = self.strategies.iter().find_map(|strategy| strategy.impossible()) {
             return Err(ComparisonError::Impossible(why));
         }
+        self.admit()?;
         let prepared: Vec<Prepared> = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect();
         let plans = self.plans(&prepared);
         let mut report = Report::default();
@@ -68,6 +69,23 @@ impl Experiment {
             self.group(world, group, &plans, progress, &mut report)?;
         }
         Ok(report.judged(self.criteria))
+    }
+
+    /// Makes sure that every sampler can spread the numbers of every strategy.
+    fn admit(&self) -> Result<(), ComparisonError> {
+        for strategy in &self.strategies {
+            for sampler in &self.samplers {
+                let refused = |why| ComparisonError::Impossible(format!("\"{strategy}\": {why}"));
+                sampler.admit(strategy.pairs()).map_err(refused)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The N that a sampler takes where another one is asked for: all that are rounded up, with what they become.
+    pub fn rounded(&self) -> Vec<(Sampler, [u32; 2])> {
+        let of = |&sampler: &Sampler| self.samples.iter().map(move |&n| (sampler, [n, sampler.rounded(n)]));
+        self.samplers.iter().flat_map(of).filter(|(_, [n, rounded])| n != rounded).collect()
     }
 
     fn plans<'a>(&self, prepared: &'a [Prepared]) -> Vec<Plan<'a>> {
@@ -120,7 +138,7 @@ impl Experiment {
 
     /// Cuts one row's replicates into tasks, by N and R alone.
     fn tasks(&self, place: usize, plan: usize, row: &Plan) -> impl Iterator<Item = Task> + use<> {
-        let replicates = self.replicates;
+        let replicates = if row.sampler.is_random() { self.replicates } else { 1 };
         let size = (SAMPLES_PER_TASK / u64::from(row.samples)).clamp(1, u64::from(replicates)) as u32;
         let starts = (0..replicates).step_by(size as usize);
         starts.map(move |start| Task { place, plan, replicates: start..replicates.min(start.saturating_add(size)) })

@@ -178,12 +178,10 @@ impl<E: Estimator> Secondary<'_, E> {
         let wanted = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
         let from = self.estimator.view().from_x::<R>().only(wanted);
         let drawn = batch.numbers.from(offset);
-        let Worth { value: Rgb(mut worth), rays } = self.estimator.primary(&from, drawn);
-        if let Some(weight) = drawn.weight::<R>() {
-            worth = [worth[0] * weight, worth[1] * weight, worth[2] * weight];
-        }
+        let Worth { value, rays } = self.estimator.primary(&from, drawn);
+        let Rgb(worth) = weighed(value, drawn);
         if E::QUOTIENT {
-            let Rgb(divisor) = self.estimator.divisor(&from, drawn);
+            let Rgb(divisor) = weighed(self.estimator.divisor(&from, drawn), drawn);
             for c in 0..3 {
                 divisor[c].store(&mut batch.divisor[c][offset..]);
             }
@@ -192,6 +190,15 @@ impl<E: Estimator> Secondary<'_, E> {
             worth[c].store(&mut batch.worth[c][offset..]);
         }
         rays
+    }
+}
+
+/// Values as much as their samples count.
+#[inline(always)]
+fn weighed<R: Real>(Rgb([r, g, b]): Rgb<R>, drawn: Drawn) -> Rgb<R> {
+    match drawn.weight::<R>() {
+        Some(weight) => Rgb([r * weight, g * weight, b * weight]),
+        None => Rgb([r, g, b]),
     }
 }
 

@@ -9,6 +9,7 @@ pub mod density;
 pub mod estimate;
 pub mod estimator;
 pub mod formulation;
+pub mod gauss;
 pub mod lights;
 pub mod measure;
 pub mod moments;

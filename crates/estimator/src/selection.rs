@@ -72,6 +72,8 @@ pub struct Picker {
     trailing: u32,
     /// The probability of each target over its measure.
     density: Vec<f32>,
+    /// The probability that a target is picked.
+    mass: f64,
 }
 
 /// A part of a target that points are drawn on by a map of its own.
@@ -141,6 +143,7 @@ impl Picker {
         let width = |k: usize| bounds[k + 1] - bounds[k];
         let mut words = vec![0_u64; weights.len()];
         pieces.iter().enumerate().for_each(|(k, piece)| words[piece.target as usize] += width(k));
+        let mass = words.iter().sum::<u64>() as f64 / WORDS as f64;
         let of_words =
             |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
         let density = words.iter().zip(measure).map(of_words).collect();
@@ -153,7 +156,7 @@ impl Picker {
         let leading = usize::BITS - shares.len().leading_zeros();
         let trailing = u32::BITS - leading;
         let first_of = |bits: u32| shares.partition_point(|share| share.first <= bits << trailing) as u32 - 1;
-        Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density }
+        Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density, mass }
     }
 
     /// The share of a word, by trying them in order.
@@ -219,10 +222,9 @@ impl Picker {
         (piece, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
     }
 
-    /// Whether there is a single target, in one piece.
-    #[inline(always)]
-    pub fn is_single(&self) -> bool {
-        self.density.len() == 1 && matches!(self.shares[..], [Share { piece: 0, .. }])
+    /// The probability that a target is picked: less than one where a light is picked that has none to be drawn on.
+    pub fn mass(&self) -> f64 {
+        self.mass
     }
 
     /// The probability of picking a target over its measure.

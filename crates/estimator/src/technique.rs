@@ -1,6 +1,7 @@
 //! Techniques: `formulation/density[@selection]`, the list of them, and what each is at one x.
 
 use std::fmt;
+use std::marker::PhantomData;
 use std::str::FromStr;
 
 use twoforms_geometry::real::Real;
@@ -8,7 +9,7 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    AreaOnLights, CosineHemisphere, Density, DensityKernel, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
     TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use crate::estimator::Single;
@@ -101,6 +102,21 @@ macro_rules! techniques {
                 match self { $(Self::$kind(density) => density.depends_on_x()),* }
             }
 
+            /// Runs the kernel with the technique's estimator at x, in its simplest form.
+            pub(crate) fn run<'a, K: SingleKernel>(
+                &'a self,
+                view: &'a View<'a>,
+                query: &'a Query<'a>,
+                kernel: K,
+            ) -> K::Output {
+                match self {
+                    $(Self::$kind(density) => {
+                        let with = WithDensity::<$formulation, K> { view, query, kernel, formulation: PhantomData };
+                        density.with(view, query.lights(), with)
+                    })*
+                }
+            }
+
             pub(crate) fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Local<'a> {
                 match self {
                     $(Self::$kind(density) => {
@@ -156,6 +172,22 @@ techniques! {
     AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
     /// Points on what rises above the horizon of the targets that face x, uniform in projected solid angle.
     AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
+}
+
+/// A kernel for an estimator, for that of a formulation with a density.
+struct WithDensity<'a, F, K> {
+    view: &'a View<'a>,
+    query: &'a Query<'a>,
+    kernel: K,
+    formulation: PhantomData<F>,
+}
+
+impl<F: Formulation, K: SingleKernel> DensityKernel<F::Measure> for WithDensity<'_, F, K> {
+    type Output = K::Output;
+
+    fn run<D: Density<F::Measure>>(self, density: D) -> K::Output {
+        self.kernel.run(&Single::<F, D>::new(self.view, self.query, density))
+    }
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

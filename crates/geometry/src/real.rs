@@ -49,6 +49,20 @@ pub trait Word:
     fn sum(self) -> u32;
     /// The high and the low word of the product with a constant.
     fn multiply_wide(self, factor: u32) -> (Self, Self);
+    /// The bits in the opposite order.
+    #[inline(always)]
+    fn reverse_bits(self) -> Self {
+        let word = swap_bits(swap_bits(self, 1, 0x5555_5555), 2, 0x3333_3333);
+        let word = swap_bits(swap_bits(word, 4, 0x0F0F_0F0F), 8, 0x00FF_00FF);
+        (word >> 16) | (word << 16)
+    }
+}
+
+/// Swaps neighbouring groups of so many bits; the lower group of each two is where `low` has ones.
+#[inline(always)]
+fn swap_bits<W: Word>(word: W, bits: u32, low: u32) -> W {
+    let low = W::splat(low);
+    ((word >> bits) & low) | ((word & low) << bits)
 }
 
 /// One binary32 number per sample, with IEEE 754 arithmetic and no contraction, so that every implementation computes

@@ -5,7 +5,7 @@ use twoforms_estimator::estimate::Estimate;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Known, Strategy};
+use twoforms_estimator::strategy::{Kernel, Strategy};
 use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
@@ -48,7 +48,7 @@ pub fn benches(criterion: &mut Criterion<CpuTime>) {
     for strategy in BY_ALL {
         let mut group = group(criterion, &format!("instructions/{strategy}"));
         for instructions in Instructions::all() {
-            bench(&mut group, &name(instructions), &case, strategy.into(), instructions);
+            bench(&mut group, &instructions.to_string(), &case, strategy.into(), instructions);
         }
         group.finish();
     }
@@ -70,11 +70,4 @@ fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instruc
     let known = twoforms_tests::samples::known(case);
     let prepared = strategy.prepare(&world.lights);
     group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, &known, Secondary(instructions))));
-}
-
-/// Scalar, or the name of the vector instructions.
-fn name(instructions: Instructions) -> String {
-    let text = format!("{instructions:?}").to_lowercase();
-    let mut words = text.split(|c: char| !c.is_alphanumeric());
-    words.find(|word| !["instructions", "lanes"].contains(word)).unwrap_or_default().to_owned()
 }

@@ -1,5 +1,6 @@
 //! Images: the radiance toward a camera, by one strategy.
 
+mod admitted;
 mod beam;
 mod chunk;
 mod face;
@@ -144,13 +145,14 @@ impl Rendering {
     /// how many there are. `progress` is told of pixels done, from any thread.
     ///
     /// # Errors
-    /// When the strategy has no sampler, or a sample is not finite.
+    /// When the strategy or the number of samples is impossible with the sampler, or a sample is not finite.
     pub fn run(
         &self,
         world: &World,
         camera: &Camera,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<Pixel>, ComparisonError> {
+        self.admit()?;
         let painter = Painter::new(self, world, camera);
         let mut image = vec![Pixel::default(); self.crop.width() as usize * self.crop.height() as usize];
         tiles(self.crop, &mut image).into_par_iter().try_for_each_init(Chunk::new, |chunk, mut tile| {

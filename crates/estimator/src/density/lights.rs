@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::{Vantage, View};
 
-use super::{Density, Ready};
+use super::{Density, DensityKernel, OnOneTarget, Ready};
 use crate::lights::Lights;
 use crate::measure::{Pdf, Sample, SurfaceArea};
 use crate::selection::{Picker, Selection};
@@ -35,12 +35,7 @@ pub struct OnLights<'p, S> {
 impl<S: Spread> Density<SurfaceArea> for OnLights<'_, S> {
     #[inline(always)]
     fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
-        let (piece, u) = if self.picker.is_single() {
-            let [u, _] = xi.uv();
-            (R::Word::splat(0), u)
-        } else {
-            self.picker.pick::<R>(xi.pick())
-        };
+        let (piece, u) = self.picker.pick::<R>(xi.pick());
         let at = self.spread.point(from, piece, [u, xi.v()]);
         self.pdf(from, &at).map(|pdf| Sample { at, pdf })
     }
@@ -91,5 +86,12 @@ impl Ready for AreaOnLights {
         let at_x = || Picker::new(self.selection, lights, lights.areas(), || lights.contributions(view));
         let picker = self.everywhere.as_ref().map_or_else(|| Cow::Owned(at_x()), Cow::Borrowed);
         OnLights { picker, spread: ByArea }
+    }
+
+    fn with<K: DensityKernel<SurfaceArea>>(&self, view: &View, lights: &Lights, kernel: K) -> K::Output {
+        match lights.areas() {
+            &[area] => kernel.run(OnOneTarget::new(area)),
+            _ => kernel.run(self.at(view, lights)),
+        }
     }
 }

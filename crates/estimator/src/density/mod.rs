@@ -3,6 +3,7 @@
 mod along;
 mod hemisphere;
 mod lights;
+mod one_target;
 mod projected_solid_angle;
 mod sector;
 mod solid_angle;
@@ -11,6 +12,7 @@ mod toward;
 
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use one_target::OnOneTarget;
 pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLights};
 pub use sector::{Sector, sectors};
 pub use solid_angle::{BySolidAngle, SolidAngleOnLights, spherical_triangles};
@@ -52,4 +54,17 @@ pub trait Ready: Sized + Send + Sync {
 
     /// The density at x.
     fn at<'a>(&'a self, view: &View, lights: &Lights) -> Self::At<'a>;
+
+    /// Hands the density at x to a kernel: that of [`Ready::at`], or a simpler one that draws the same points.
+    fn with<K: DensityKernel<Self::Measure>>(&self, view: &View, lights: &Lights, kernel: K) -> K::Output {
+        kernel.run(self.at(view, lights))
+    }
+}
+
+/// Something to do with a density, whichever it is.
+pub trait DensityKernel<M: Measure> {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run<D: Density<M>>(self, density: D) -> Self::Output;
 }

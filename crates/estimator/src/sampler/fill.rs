@@ -100,24 +100,47 @@ fn seed<W: Word>(key: Key, [one, other]: [W; 2], pair: u32) -> [W; 4] {
     philox4x32_10([W::splat(pair), W::splat(0), one, other], key.0)
 }
 
+/// Random words of a stream for all of its pairs.
+#[inline(always)]
+fn common<W: Word>(key: Key, [one, other]: [W; 2]) -> [W; 2] {
+    let [a, b, ..] = philox4x32_10([W::splat(0), W::splat(1), one, other], key.0);
+    [a, b]
+}
+
+/// The weights to fill, all of them 1 so far; nothing where samples count alike.
+fn weights<S: Spread>(weights: &mut Option<Box<[f32; BATCH]>>) -> Option<&mut [f32; BATCH]> {
+    if S::WEIGHTED {
+        Some(&mut **weights.get_or_insert_with(|| Box::new([1.0; BATCH])))
+    } else {
+        *weights = None;
+        None
+    }
+}
+
+/// Writes the words at a place.
+#[inline(always)]
+fn put<S: Spread, R: Real>(plan: &S::Plan, place: &Place<R>, [u, v]: [&mut [u32]; 2]) {
+    let [one, other] = S::pair::<R>(plan, place);
+    one.store(u);
+    other.store(v);
+}
+
 impl<S: Spread> Kernel for By<Along<'_, '_>, S> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real>(self) {
         let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, length, numbers, .. } = self.0;
+        let common = common(*key, *stream).map(R::Word::splat);
+        let mut weights = weights::<S>(&mut numbers.weights);
         for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
-            let pair = pair as u32;
-            let [a, b, c, d] = seed(*key, *stream, pair);
-            let seed = [R::Word::splat(a), R::Word::splat(b), R::Word::splat(c), R::Word::splat(d)];
-            for offset in (0..length).step_by(2 * R::LANES) {
-                let here = Place { index: R::Word::counting(first + offset as u32), n: *n, pair, seed };
-                let there = Place { index: R::Word::counting(first + (offset + R::LANES) as u32), ..here };
-                let [one, other] = S::two::<R>([here, there]);
-                one[0].store(&mut u[offset..]);
-                one[1].store(&mut v[offset..]);
-                other[0].store(&mut u[offset + R::LANES..]);
-                other[1].store(&mut v[offset + R::LANES..]);
+            let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, *stream, pair as u32).map(R::Word::splat));
+            for offset in (0..length).step_by(R::LANES) {
+                let place = Place { index: R::Word::counting(first + offset as u32), seed, common };
+                put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
+                if let Some(weights) = &mut weights {
+                    S::weight::<R>(&plan, &place).store(&mut weights[offset..]);
+                }
             }
         }
     }
@@ -130,14 +153,16 @@ impl<S: Spread> Kernel for By<Across<'_, '_>, S> {
     fn run<R: Real>(self) {
         let Across { row: Row { key, n, streams, first }, length, numbers, .. } = self.0;
         let (streams, first) = ([R::Word::load(&streams[0]), R::Word::load(&streams[1])], R::Word::load(first));
+        let common = common(*key, streams);
+        let mut weights = weights::<S>(&mut numbers.weights);
         for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
-            let pair = pair as u32;
-            let seed = seed(*key, streams, pair);
+            let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, streams, pair as u32));
             for (k, offset) in (0..BATCH).step_by(R::LANES).take(length).enumerate() {
-                let index = first.wrapping_add(R::Word::splat(k as u32));
-                let [one, other] = S::pair::<R>(&Place { index, n: *n, pair, seed });
-                one.store(&mut u[offset..]);
-                other.store(&mut v[offset..]);
+                let place = Place { index: first.wrapping_add(R::Word::splat(k as u32)), seed, common };
+                put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
+                if let Some(weights) = &mut weights {
+                    S::weight::<R>(&plan, &place).store(&mut weights[offset..]);
+                }
             }
         }
     }

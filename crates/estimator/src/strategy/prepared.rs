@@ -55,6 +55,15 @@ impl Strategy {
         }
     }
 
+    /// Pairs of random numbers that a sample takes.
+    pub fn pairs(self) -> usize {
+        match self {
+            Self::Mis(_, team) => team.members().map(|member| member.samples as usize).sum(),
+            Self::Resampled(candidates) => candidates as usize + 1,
+            _ => 1,
+        }
+    }
+
     /// The techniques that it draws samples of.
     pub fn techniques(self) -> Vec<Technique> {
         match self {
@@ -92,7 +101,7 @@ impl Prepared {
     ) -> K::Output {
         let at = |k: usize| self.techniques[k].at(view, query);
         match self.strategy {
-            Strategy::Single(_) => at(0).run(OfSingle(kernel)),
+            Strategy::Single(_) => self.techniques[0].run(view, query, OfSingle(kernel)),
             Strategy::Mis(weighting, team) => {
                 let team = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
                 let alpha = known.alpha.iter().flatten().map(|alpha| alpha.map(|alpha| alpha as f32));

@@ -10,7 +10,6 @@ mod facet;
 mod group;
 mod polygon;
 mod prospect;
-mod pyramid;
 mod shaft;
 mod sight;
 mod vantage;

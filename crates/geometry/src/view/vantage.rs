@@ -43,42 +43,56 @@ impl<'v, R: Real> Vantage<'v, R> {
     /// The targets as samples meet them, by each sample's index.
     #[inline(always)]
     pub fn facet(&self, target: R::Word) -> Facet<R> {
-        let view = self.view;
-        let facet = Facet::from_row(match &view.sights {
-            Some(sights) if sights.len() == 1 => R::gather(
-                R::Word::splat(0),
-                #[inline(always)]
-                |_| sights[0].row(),
-            ),
-            Some(sights) => R::gather(
-                target,
-                #[inline(always)]
-                |k| sights[k as usize].row(),
-            ),
-            None => R::gather(
-                target,
-                #[inline(always)]
-                |k| view.wide(k).row(),
-            ),
-        });
+        let facet = match self.view.sights.as_deref() {
+            Some([sight]) => Facet::splat(sight.row()),
+            _ => self.looked_up(target),
+        };
         match self.start {
             Some(start) => facet.seen_from(start),
             None => facet,
         }
     }
 
-    /// Whether the line along Ψ meets a target, whatever stands between and whichever side it shows.
-    #[inline(always)]
-    pub fn meets(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
+    #[cold]
+    #[inline(never)]
+    fn looked_up(self, target: R::Word) -> Facet<R> {
         let view = self.view;
-        self.each(
-            self.wanted,
-            target,
-            psi.vector(),
+        R::apart(
             #[inline(always)]
-            |k, line| view.outline(k).holds(&line).then_some(k),
+            || {
+                Facet::from_row(match &view.sights {
+                    Some(sights) => R::gather(
+                        target,
+                        #[inline(always)]
+                        |k| sights[k as usize].row(),
+                    ),
+                    None => R::gather(
+                        target,
+                        #[inline(always)]
+                        |k| view.wide(k).row(),
+                    ),
+                })
+            },
         )
-        .0
+    }
+
+    /// Whether the line along Ψ meets a target, whatever stands between and whichever side it shows.
+    #[inline(never)]
+    pub fn meets(self, target: R::Word, psi: Direction<R>) -> R::Mask {
+        let view = self.view;
+        R::apart(
+            #[inline(always)]
+            || {
+                self.each(
+                    self.wanted,
+                    target,
+                    psi.vector(),
+                    #[inline(always)]
+                    |k, line| view.outline(k).holds(&line).then_some(k),
+                )
+                .0
+            },
+        )
     }
 
     /// The same for one target: a few dot products.
@@ -92,16 +106,9 @@ impl<'v, R: Real> Vantage<'v, R> {
     /// not emit, or the dark side of one that does.
     #[inline(always)]
     pub fn vp(&self, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
-        let view = self.view;
-        let (reached, target) = match &view.sights {
+        let (reached, target) = match &self.view.sights {
             Some(sights) => self.reached_by_planes(sights, psi),
-            None => self.each(
-                self.wanted,
-                R::Word::splat(0),
-                psi.vector(),
-                #[inline(always)]
-                |_, line| view.reached_by_ray(&line),
-            ),
+            None => self.reached_by_rays(psi),
         };
         let target = R::select_word(reached, target, R::Word::splat(0));
         if !reached.any() {
@@ -130,17 +137,45 @@ impl<'v, R: Real> Vantage<'v, R> {
         let Some(sights) = &self.view.sights else {
             return self.clear_by_ray(y.position, y.target, asked);
         };
-        if let [sight] = &sights[..] {
-            return self.unblocked(sight, y.position, y.target, asked);
+        match &sights[..] {
+            [sight] => self.unblocked(sight, y.position, y.target, asked),
+            sights => self.unblocked_by_each(sights, *y, asked),
         }
-        let mut visible = R::Mask::splat(false);
-        for (k, sight) in sights.iter().enumerate() {
-            let here = asked & R::same(y.target, R::Word::splat(k as u32));
-            if here.any() {
-                visible = visible | self.unblocked(sight, y.position, y.target, here);
-            }
-        }
-        visible
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn unblocked_by_each(self, sights: &[Sight], y: SurfacePoint<R>, asked: R::Mask) -> R::Mask {
+        R::apart(
+            #[inline(always)]
+            || {
+                let mut visible = R::Mask::splat(false);
+                for (k, sight) in sights.iter().enumerate() {
+                    let here = asked & R::same(y.target, R::Word::splat(k as u32));
+                    if here.any() {
+                        visible = visible | self.unblocked(sight, y.position, y.target, here);
+                    }
+                }
+                visible
+            },
+        )
+    }
+
+    #[inline(never)]
+    fn reached_by_rays(self, psi: Direction<R>) -> (R::Mask, R::Word) {
+        let view = self.view;
+        R::apart(
+            #[inline(always)]
+            || {
+                self.each(
+                    self.wanted,
+                    R::Word::splat(0),
+                    psi.vector(),
+                    #[inline(always)]
+                    |_, line| view.reached_by_ray(&line),
+                )
+            },
+        )
     }
 
     /// The sights are disjoint but for edges and blocked by each other, so the first that is reached is the one.
@@ -178,17 +213,23 @@ impl<'v, R: Real> Vantage<'v, R> {
         }
     }
 
-    #[inline(always)]
-    fn clear_by_ray(&self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+    #[cold]
+    #[inline(never)]
+    fn clear_by_ray(self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
         let view = self.view;
-        self.each(
-            asked,
-            target,
-            toward,
+        R::apart(
             #[inline(always)]
-            |k, line| view.clear(&line, k).then_some(k),
+            || {
+                self.each(
+                    asked,
+                    target,
+                    toward,
+                    #[inline(always)]
+                    |k, line| view.clear(&line, k).then_some(k),
+                )
+                .0
+            },
         )
-        .0
     }
 
     /// Asks a question about the line of each sample where `asked`.

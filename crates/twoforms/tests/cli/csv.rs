@@ -3,7 +3,7 @@
 use crate::support::twoforms;
 
 const HEADER: &str = "receiver,x,y,z,n_x,n_y,n_z,strategy,sampler,samples,replicates,mean_r,mean_g,mean_b,\
-                      mean_luminance,variance_of_mean,variance_lo,variance_hi,variance_exact,variance_ratio,\
+                      mean_luminance,error,variance_of_mean,variance_lo,variance_hi,variance_exact,variance_ratio,\
                       variance_ratio_lo,variance_ratio_hi,variance_of_one,\
                       chebyshev_delta,chebyshev_outside,rays,seconds,efficiency,irradiance_known,irradiance_exact,\
                       setup_seconds";
@@ -23,7 +23,8 @@ fn a_header_then_a_line_for_each_row_with_numbers_that_read_back() {
         assert_eq!(cells[7], row["strategy"]);
         assert_eq!(cells[9].parse().ok(), row["samples"].as_u64());
         assert_eq!(cells[14].parse().ok(), row["mean"]["luminance"].as_f64());
-        assert_eq!(cells[15].parse().ok(), row["variance_of_mean"].as_f64());
+        assert_eq!(cells[15].parse().ok(), row["error"].as_f64());
+        assert_eq!(cells[16].parse().ok(), row["variance_of_mean"].as_f64());
     }
     assert_eq!(lines.next(), None);
 }

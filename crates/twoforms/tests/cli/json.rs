@@ -43,12 +43,13 @@ fn the_fields_of_the_schema_are_there() {
     }
 }
 
-const ROW: [&str; 12] = [
+const ROW: [&str; 13] = [
     "strategy",
     "sampler",
     "samples",
     "replicates",
     "mean",
+    "error",
     "variance_of_mean",
     "variance_interval",
     "variance_exact",

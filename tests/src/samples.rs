@@ -2,13 +2,15 @@
 
 use twoforms_comparison::exactly;
 use twoforms_comparison::place::Place;
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
+use twoforms_estimator::numbers::BATCH;
 use twoforms_estimator::query::Query;
-use twoforms_estimator::rgb::Rgb;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Known, Strategy};
+use twoforms_estimator::strategy::{Known, Strategy};
 use twoforms_estimator::xi::{Draws, Key, Xi};
+use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};
 
 use crate::worlds::Case;
@@ -42,16 +44,18 @@ impl Samples {
     }
 }
 
-impl Kernel for Samples {
-    type Output = Vec<[f32; 3]>;
-
-    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
-        let worth = |index| {
-            let numbers = self.stream().xi(index, estimator.pairs());
-            let Rgb(worth) = estimator.primary(&estimator.view().from_x(), numbers.from(0)).value;
-            worth
-        };
-        (0..self.n).map(worth).collect()
+impl Samples {
+    /// What the samples are worth, by the scalar numbers.
+    pub fn of(&self, estimator: &dyn Estimator) -> Vec<[f32; 3]> {
+        let mut batch = Batch::new(estimator.pairs());
+        let mut worths = Vec::with_capacity(self.n as usize);
+        for first in (0..self.n).step_by(BATCH) {
+            batch.length = BATCH.min((self.n - first) as usize);
+            self.stream().fill(Instructions::SCALAR, first, batch.length, &mut batch.numbers);
+            estimator.evaluate(Instructions::SCALAR, &mut batch);
+            worths.extend((0..batch.length).map(|k| batch.worth.map(|channel| channel[k])));
+        }
+        worths
     }
 }
 
@@ -59,8 +63,8 @@ impl Kernel for Samples {
 pub fn samples(case: &Case, strategy: Strategy, sampler: Sampler, n: u32, seed: u64) -> Vec<[f32; 3]> {
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
-    let kernel = Samples::new(seed, &case.place, strategy, sampler, n);
-    strategy.prepare(&world.lights).run(&view, &Query::irradiance(&world.lights), &known(case), kernel)
+    let (query, prepared) = (Query::irradiance(&world.lights), strategy.prepare(&world.lights));
+    Samples::new(seed, &case.place, strategy, sampler, n).of(&*prepared.at(&view, &query, &known(case)))
 }
 
 /// What strategies may know beforehand at a receiver.

@@ -9,7 +9,8 @@ use twoforms_estimator::estimate::Estimate;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::secondary::secondary_by;
+use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::Kind;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
@@ -67,17 +68,9 @@ fn a_seed_fixes_the_results_on_any_number_of_threads() {
 }
 
 /// The same estimate by each kind of instructions that the machine has.
-struct ByAll {
-    stream: Stream,
-}
-
-impl Kernel for ByAll {
-    type Output = Vec<Estimate>;
-
-    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
-        let by = |instructions| estimator.secondary_by(instructions, self.stream).expect("finite samples");
-        Instructions::all().into_iter().map(by).collect()
-    }
+fn by_all(estimator: &dyn Estimator, stream: Stream) -> Vec<Estimate> {
+    let by = |instructions| secondary_by(estimator, instructions, stream, 0..stream.n).expect("finite samples");
+    Instructions::all().into_iter().map(by).collect()
 }
 
 #[test]
@@ -90,11 +83,12 @@ fn bits_do_not_depend_on_the_instructions() {
         let pairs = efforts.into_iter().flat_map(|effort| Strategy::all().into_iter().map(move |s| (effort, s)));
         for (effort, strategy) in pairs {
             let view = View::new(&world.geometry, case.place.frame(), effort);
+            let prepared = strategy.prepare(&world.lights);
             for n in [1, 17, 1000] {
                 let draws = Draws { key: Key::new([u64::from(n)]), stream: [n, 3] };
                 for &sampler in Sampler::ALL {
                     let stream = Stream { sampler, draws, n: sampler.rounded(n) };
-                    let estimates = strategy.prepare(&world.lights).run(&view, &query, &known, ByAll { stream });
+                    let estimates = by_all(&*prepared.at(&view, &query, &known), stream);
                     let same = estimates.windows(2).all(|pair| pair[0] == pair[1]);
                     assert!(same, "{} {strategy} {sampler} {effort:?} N = {n}: {estimates:?}", case.place.name);
                 }

@@ -11,7 +11,7 @@ use twoforms_estimator::measure::{Aim, Integrand, Measure, Pdf, Sample, SolidAng
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::selection::{Picker, Selection};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::Kind;
 use twoforms_estimator::xi::Xi;
 use twoforms_geometry::masked::Masked;
@@ -182,7 +182,7 @@ impl<'a> Trial<'a> {
     }
 
     fn samples<F: Formulation, D: Density<F::Measure>>(&self, density: D) -> Vec<[f32; 3]> {
-        self.draws.run(&Single::<F, D>::new(&self.view, &self.query, density))
+        self.draws.of(&Single::<F, D>::new(&self.view, &self.query, density))
     }
 
     /// The test of a mean against the known answer, by the measured variance.

@@ -9,11 +9,10 @@ use std::error::Error;
 
 use glam::DVec3;
 use twoforms_comparison::world::World;
-use twoforms_estimator::estimate::{Estimate, NotFinite};
-use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Known, Prepared, Strategy};
+use twoforms_estimator::secondary::secondary;
+use twoforms_estimator::strategy::{Known, Prepared, Strategy};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::view::{Effort, View};
@@ -22,18 +21,6 @@ use twoforms_scene::Scene;
 use support::{arguments, seconds, whole};
 
 const USAGE: &str = "usage: sample_points SCENE POINTS.csv STRATEGY N [--repeat K]";
-
-struct Samples {
-    stream: Stream,
-}
-
-impl Kernel for Samples {
-    type Output = Result<Estimate, NotFinite>;
-
-    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
-        estimator.secondary(self.stream)
-    }
-}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let ([scene, points, strategy, n], [repeat]) = arguments(USAGE, ["--repeat"])?;
@@ -78,7 +65,7 @@ fn mean_irradiance(
         let view = View::new(&world.geometry, *frame, Effort::Gather);
         let draws = Draws { key: Key::new([round, point]), stream: [n, 0] };
         let stream = Stream { sampler: Sampler::Independent, draws, n };
-        sum += prepared.run(&view, &query, &Known::default(), Samples { stream })?.luminance.mean;
+        sum += secondary(&*prepared.at(&view, &query, &Known::default()), stream)?.luminance.mean;
     }
     Ok(sum / frames.len() as f64)
 }

@@ -8,7 +8,8 @@ use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::sampler::Stream;
-use twoforms_estimator::strategy::{Kernel, Known};
+use twoforms_estimator::secondary::secondary;
+use twoforms_estimator::strategy::Known;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::view::View;
 
@@ -45,8 +46,9 @@ impl Measurement {
         key: Key,
         task: &Task,
     ) -> Result<Self, (u32, NotFinite)> {
-        let replicates = Replicates { plan, key, range: task.replicates.clone(), emission };
-        let (measured, seconds) = clock::timed(|| plan.prepared.run(view, query, known, replicates));
+        let estimator = plan.prepared.at(view, query, known);
+        let replicates = Replicates { plan, estimator: &*estimator, key, range: task.replicates.clone(), emission };
+        let (measured, seconds) = clock::timed(|| replicates.measure());
         Ok(Self { seconds, ..measured? })
     }
 
@@ -80,22 +82,20 @@ impl Measurement {
 
 struct Replicates<'a> {
     plan: &'a Plan<'a>,
+    estimator: &'a dyn Estimator,
     key: Key,
     range: Range<u32>,
     emission: [f64; 3],
 }
 
-impl Kernel for Replicates<'_> {
-    type Output = Result<Measurement, (u32, NotFinite)>;
-
-    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
+impl Replicates<'_> {
+    fn measure(self) -> Result<Measurement, (u32, NotFinite)> {
         let Plan { sampler, samples, .. } = *self.plan;
         let mut measurement = Measurement::default();
         for replicate in self.range {
             let draws = Draws { key: self.key, stream: [samples, replicate] };
-            let estimate = estimator
-                .secondary(Stream { sampler, draws, n: samples })
-                .map_err(|not_finite| (replicate, not_finite))?;
+            let stream = Stream { sampler, draws, n: samples };
+            let estimate = secondary(self.estimator, stream).map_err(|not_finite| (replicate, not_finite))?;
             measurement.push(&estimate, self.emission);
         }
         Ok(measurement)

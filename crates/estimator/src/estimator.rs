@@ -1,22 +1,18 @@
-//! Estimators of the light that x receives, in the lecture's words: primary with one sample, secondary with the mean of N.
-
-use std::ops::Range;
+//! Estimators of the light that x receives: the lecture's primary estimator, by techniques and combinations of them.
 
 use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
+use twoforms_geometry::vector::Vector;
 use twoforms_geometry::view::{Vantage, View};
-use twoforms_geometry::wide::{EIGHT, Wide};
 
+use crate::batch::Batch;
 use crate::density::Density;
-use crate::estimate::{self, Estimate, NotFinite};
 use crate::formulation::Formulation;
 use crate::measure::Sample;
-use crate::moments::Moments;
-use crate::numbers::{BATCH, Drawn, Numbers};
+use crate::numbers::Drawn;
 use crate::query::Query;
-use crate::rgb::{LUMINANCE, Rgb};
-use crate::sampler::Stream;
+use crate::rgb::Rgb;
 use crate::xi::Xi;
 
 /// What one sample is worth, and the rays that it asked for.
@@ -28,8 +24,8 @@ pub struct Worth<R: Real> {
     pub rays: R::Word,
 }
 
-/// An estimator at one x.
-pub trait Estimator {
+/// What one sample of an estimator is worth at x: ⟨I⟩_prim.
+pub trait Primary: Sync {
     /// Whether the estimate is a quotient of two sums instead of a mean.
     const QUOTIENT: bool = false;
 
@@ -41,7 +37,7 @@ pub trait Estimator {
         1
     }
 
-    /// ⟨I⟩_prim: what samples are worth. Those that are not wanted are worth zero.
+    /// What samples are worth. Those that are not wanted are worth zero.
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R>;
 
     /// What the same samples add to the divisor, RGB, where the estimate is a quotient.
@@ -51,43 +47,68 @@ pub trait Estimator {
     }
 
     /// The estimate from the sum of worths and that of divisors over n samples.
-    #[inline(always)]
     fn estimate(&self, sum: [f64; 3], _: [f64; 3], n: u32) -> [f64; 3] {
         sum.map(|sum| sum / f64::from(n))
     }
+}
 
-    /// ⟨I⟩_sec = (1/N) Σ ⟨I⟩_prim, with ξ_i from `stream`, by the best instructions of this machine.
-    ///
-    /// # Errors
-    /// When a sample is not finite.
-    fn secondary(&self, stream: Stream) -> Result<Estimate, NotFinite>
-    where
-        Self: Sized,
-    {
-        self.secondary_by(Instructions::best(), stream)
+/// An estimator at x, whichever it is. What depends on which one it is is compiled once, here, and asked for a batch at a time.
+pub trait Estimator: Sync {
+    /// Whether the estimate is a quotient of two sums instead of a mean.
+    fn is_quotient(&self) -> bool;
+
+    /// Pairs of random numbers that a sample takes.
+    fn pairs(&self) -> usize;
+
+    /// What the samples of a batch are worth.
+    fn evaluate(&self, instructions: Instructions, batch: &mut Batch);
+
+    /// The estimate from the sum of worths and that of divisors over n samples.
+    fn estimate(&self, sum: [f64; 3], divisor: [f64; 3], n: u32) -> [f64; 3];
+}
+
+impl<P: Primary> Estimator for P {
+    fn is_quotient(&self) -> bool {
+        P::QUOTIENT
     }
 
-    /// The same estimate by other instructions. The bits do not depend on them.
-    ///
-    /// # Errors
-    /// When a sample is not finite.
-    fn secondary_by(&self, instructions: Instructions, stream: Stream) -> Result<Estimate, NotFinite>
-    where
-        Self: Sized,
-    {
-        instructions.run(Secondary { estimator: self, instructions, stream, samples: 0..stream.n })
+    fn pairs(&self) -> usize {
+        Primary::pairs(self)
     }
 
-    /// The mean of some of the N samples.
-    ///
-    /// # Errors
-    /// When a sample is not finite.
-    fn part(&self, stream: Stream, samples: Range<u32>) -> Result<Estimate, NotFinite>
-    where
-        Self: Sized,
-    {
-        let instructions = Instructions::best();
-        instructions.run(Secondary { estimator: self, instructions, stream, samples })
+    fn evaluate(&self, instructions: Instructions, batch: &mut Batch) {
+        instructions.run(Evaluate { primary: self, batch });
+    }
+
+    fn estimate(&self, sum: [f64; 3], divisor: [f64; 3], n: u32) -> [f64; 3] {
+        Primary::estimate(self, sum, divisor, n)
+    }
+}
+
+/// A batch with its numbers yet to be chosen.
+struct Evaluate<'e, P> {
+    primary: &'e P,
+    batch: &'e mut Batch,
+}
+
+impl<P: Primary> Kernel for Evaluate<'_, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Self { primary, batch } = self;
+        let (view, length) = (primary.view(), batch.length);
+        if batch.from_points {
+            for offset in (0..length).step_by(R::LANES) {
+                let [x, y, z] = batch.start.each_ref();
+                let start = Vector::new(R::load(&x[offset..]), R::load(&y[offset..]), R::load(&z[offset..]));
+                batch.evaluate(primary, view.from_points::<R>(start), offset);
+            }
+        } else {
+            for offset in (0..length).step_by(R::LANES) {
+                batch.evaluate(primary, view.from_x::<R>(), offset);
+            }
+        }
     }
 }
 
@@ -97,7 +118,7 @@ pub struct Single<'a, F, D> {
     pub(crate) view: &'a View<'a>,
     pub(crate) query: &'a Query<'a>,
     pub(crate) density: D,
-    formulation: std::marker::PhantomData<F>,
+    formulation: std::marker::PhantomData<fn() -> F>,
 }
 
 impl<'a, F: Formulation, D: Density<F::Measure>> Single<'a, F, D> {
@@ -112,7 +133,7 @@ impl<'a, F: Formulation, D: Density<F::Measure>> Single<'a, F, D> {
     }
 }
 
-impl<F: Formulation, D: Density<F::Measure>> Estimator for Single<'_, F, D> {
+impl<F: Formulation, D: Density<F::Measure>> Primary for Single<'_, F, D> {
     fn view(&self) -> &View<'_> {
         self.view
     }
@@ -133,141 +154,4 @@ impl<F: Formulation, D: Density<F::Measure>> Estimator for Single<'_, F, D> {
 #[inline(always)]
 pub(crate) fn count<R: Real>(mask: R::Mask) -> R::Word {
     R::select_word(mask, R::Word::splat(1), R::Word::splat(0))
-}
-
-/// The secondary estimator with its numbers yet to be chosen.
-struct Secondary<'e, E> {
-    estimator: &'e E,
-    instructions: Instructions,
-    stream: Stream,
-    samples: Range<u32>,
-}
-
-impl<E: Estimator> Kernel for Secondary<'_, E> {
-    type Output = Result<Estimate, NotFinite>;
-
-    #[inline(always)]
-    fn run<R: Real>(self) -> Self::Output {
-        let Range { start: first, end } = self.samples;
-        let mut estimate = Estimate::default();
-        let mut batch = Batch::new(self.estimator.pairs());
-        let mut divisor = [0.0; 3];
-        for start in (first..end).step_by(BATCH) {
-            let length = BATCH.min((end - start) as usize);
-            batch.length = length;
-            self.stream.fill(self.instructions, start, length, &mut batch.numbers);
-            let mut rays = R::Word::splat(0);
-            for offset in (0..length).step_by(R::LANES) {
-                rays = rays.wrapping_add(self.evaluate::<R>(offset, &mut batch));
-            }
-            batch.rays = u64::from(rays.sum());
-            estimate.add::<R::Wide>(&batch).map_err(|offset| batch.not_finite(start, offset))?;
-            if E::QUOTIENT {
-                batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..length]));
-            }
-        }
-        estimate.value = self.estimator.estimate(estimate.value, divisor, end - first);
-        Ok(estimate)
-    }
-}
-
-impl<E: Estimator> Secondary<'_, E> {
-    /// Samples that lie side by side, from `offset` of the batch on; answers with the rays they asked for.
-    #[inline(always)]
-    fn evaluate<R: Real>(&self, offset: usize, batch: &mut Batch) -> R::Word {
-        let wanted = R::below(R::Word::counting(offset as u32), R::Word::splat(batch.length as u32));
-        let from = self.estimator.view().from_x::<R>().only(wanted);
-        let drawn = batch.numbers.from(offset);
-        let Worth { value, rays } = self.estimator.primary(&from, drawn);
-        let Rgb(worth) = weighed(value, drawn);
-        if E::QUOTIENT {
-            let Rgb(divisor) = weighed(self.estimator.divisor(&from, drawn), drawn);
-            for c in 0..3 {
-                divisor[c].store(&mut batch.divisor[c][offset..]);
-            }
-        }
-        for c in 0..3 {
-            worth[c].store(&mut batch.worth[c][offset..]);
-        }
-        rays
-    }
-}
-
-/// Values as much as their samples count.
-#[inline(always)]
-fn weighed<R: Real>(Rgb([r, g, b]): Rgb<R>, drawn: Drawn) -> Rgb<R> {
-    match drawn.weight::<R>() {
-        Some(weight) => Rgb([r * weight, g * weight, b * weight]),
-        None => Rgb([r, g, b]),
-    }
-}
-
-/// Some samples: their ξ, what they are worth, RGB, and the rays they asked for.
-struct Batch {
-    numbers: Numbers,
-    worth: [[f32; BATCH]; 3],
-    divisor: [[f32; BATCH]; 3],
-    length: usize,
-    rays: u64,
-}
-
-impl Batch {
-    fn new(pairs: usize) -> Self {
-        let black = [[0.0; BATCH]; 3];
-        Self { numbers: Numbers::new(pairs), worth: black, divisor: black, length: 0, rays: 0 }
-    }
-
-    #[cold]
-    fn not_finite(&self, start: u32, offset: usize) -> NotFinite {
-        let value = self.worth.map(|channel| channel[offset]);
-        NotFinite { index: start + offset as u32, value, words: self.numbers.words(offset) }
-    }
-
-    #[cold]
-    fn first_not_finite(&self) -> usize {
-        let broken = |k: &usize| self.worth.iter().any(|channel| !channel[*k].is_finite());
-        (0..self.length).find(broken).unwrap_or_default()
-    }
-}
-
-impl Estimate {
-    /// Adds a batch to the sums; the error is the first sample that is not finite.
-    #[inline(always)]
-    fn add<W: Wide>(&mut self, batch: &Batch) -> Result<(), usize> {
-        let length = batch.length.next_multiple_of(EIGHT);
-        let (zero, weights) = (W::splat(0.0), LUMINANCE.map(W::splat));
-        let (mut sums, mut low, mut high) = ([zero; 3], W::splat(self.range.low), W::splat(self.range.high));
-        let mut luminances = [0.0; BATCH];
-        for k in (0..length).step_by(EIGHT) {
-            let [r, g, b] =
-                [W::widen(&batch.worth[0][k..]), W::widen(&batch.worth[1][k..]), W::widen(&batch.worth[2][k..])];
-            let luminance = r * weights[0] + g * weights[1] + b * weights[2];
-            luminance.store(&mut luminances[k..]);
-            sums = [sums[0] + r, sums[1] + g, sums[2] + b];
-            let hit = !luminance.equals(zero);
-            self.hits += u64::from(hit.count());
-            low = W::select(hit & luminance.lt(low), luminance, low);
-            high = W::select(hit & high.lt(luminance), luminance, high);
-        }
-        let moments = Moments::by::<W>(&luminances[..batch.length]);
-        if !moments.mean.is_finite() {
-            return Err(batch.first_not_finite());
-        }
-        for c in 0..3 {
-            self.value[c] += sums[c].sum();
-        }
-        self.range = estimate::Range { low: least(low), high: -least(zero - high) };
-        self.luminance = self.luminance + moments;
-        self.rays += batch.rays;
-        Ok(())
-    }
-}
-
-fn total(values: &[f32]) -> f64 {
-    values.iter().map(|&value| f64::from(value)).sum()
-}
-
-#[inline(always)]
-fn least<W: Wide>(values: W) -> f64 {
-    values.to_array().into_iter().fold(f64::INFINITY, f64::min)
 }

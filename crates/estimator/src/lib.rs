@@ -4,6 +4,7 @@
 //! Three files hold the subject: [`measure`], and the mirror images `formulation/hemisphere.rs` and
 //! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
 
+pub mod batch;
 mod combination;
 pub mod density;
 pub mod estimate;
@@ -19,6 +20,7 @@ mod philox;
 pub mod query;
 pub mod rgb;
 pub mod sampler;
+pub mod secondary;
 pub mod selection;
 pub mod strategy;
 pub mod technique;

@@ -1,7 +1,6 @@
 //! Techniques: `formulation/density[@selection]`, the list of them, and what each is at one x.
 
 use std::fmt;
-use std::marker::PhantomData;
 use std::str::FromStr;
 
 use twoforms_geometry::real::Real;
@@ -9,10 +8,10 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, CosineHemisphere, Density, DensityKernel, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
     TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
-use crate::estimator::Single;
+use crate::estimator::{Estimator, Single};
 use crate::formulation::{Area, Formulation, Hemisphere};
 use crate::lights::Lights;
 use crate::measure::{Measure, Sample};
@@ -27,14 +26,6 @@ pub struct Technique {
     pub kind: Kind,
     /// How a light is picked; [`Selection::Together`] where none is.
     pub selection: Selection,
-}
-
-/// Something to do with a technique's estimator, whichever it is: matched once, then wholly inlined.
-pub trait SingleKernel {
-    /// What comes of it.
-    type Output;
-    /// Does it.
-    fn run<F: Formulation, D: Density<F::Measure>>(self, single: &Single<F, D>) -> Self::Output;
 }
 
 /// A point of a light that a technique came upon.
@@ -102,19 +93,9 @@ macro_rules! techniques {
                 match self { $(Self::$kind(density) => density.depends_on_x()),* }
             }
 
-            /// Runs the kernel with the technique's estimator at x, in its simplest form.
-            pub(crate) fn run<'a, K: SingleKernel>(
-                &'a self,
-                view: &'a View<'a>,
-                query: &'a Query<'a>,
-                kernel: K,
-            ) -> K::Output {
-                match self {
-                    $(Self::$kind(density) => {
-                        let with = WithDensity::<$formulation, K> { view, query, kernel, formulation: PhantomData };
-                        density.with(view, query.lights(), with)
-                    })*
-                }
+            /// The technique's estimator at x, in its simplest form.
+            pub(crate) fn boxed<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Box<dyn Estimator + 'a> {
+                match self { $(Self::$kind(density) => density.boxed::<$formulation>(view, query)),* }
             }
 
             pub(crate) fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Local<'a> {
@@ -127,10 +108,6 @@ macro_rules! techniques {
         }
 
         impl Local<'_> {
-            pub(crate) fn run<K: SingleKernel>(&self, kernel: K) -> K::Output {
-                match self { $(Self::$kind(single) => kernel.run(single)),* }
-            }
-
             /// Draws a point of the domain, and finds the point of a light that x sees there.
             #[inline(never)]
             pub(crate) fn find<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Found<R> {
@@ -172,22 +149,6 @@ techniques! {
     AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
     /// Points on what rises above the horizon of the targets that face x, uniform in projected solid angle.
     AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
-}
-
-/// A kernel for an estimator, for that of a formulation with a density.
-struct WithDensity<'a, F, K> {
-    view: &'a View<'a>,
-    query: &'a Query<'a>,
-    kernel: K,
-    formulation: PhantomData<F>,
-}
-
-impl<F: Formulation, K: SingleKernel> DensityKernel<F::Measure> for WithDensity<'_, F, K> {
-    type Output = K::Output;
-
-    fn run<D: Density<F::Measure>>(self, density: D) -> K::Output {
-        self.kernel.run(&Single::<F, D>::new(self.view, self.query, density))
-    }
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

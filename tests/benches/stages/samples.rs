@@ -5,7 +5,8 @@ use twoforms_estimator::estimate::Estimate;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::secondary::secondary_by;
+use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
@@ -22,16 +23,10 @@ const N: u32 = 1024;
 const BY_ALL: [Technique; 2] = [Technique::of(Kind::AreaUniform), Technique::of(Kind::HemisphereCosine)];
 
 /// An estimate of N samples.
-struct Secondary(Instructions);
-
-impl Kernel for Secondary {
-    type Output = Estimate;
-
-    fn run<E: Estimator>(self, estimator: &E) -> Estimate {
-        let draws = Draws { key: Key::new([0]), stream: [N, 0] };
-        let stream = Stream { sampler: Sampler::Independent, draws, n: N };
-        estimator.secondary_by(self.0, stream).expect("finite samples")
-    }
+fn estimate(estimator: &dyn Estimator, instructions: Instructions) -> Estimate {
+    let draws = Draws { key: Key::new([0]), stream: [N, 0] };
+    let stream = Stream { sampler: Sampler::Independent, draws, n: N };
+    secondary_by(estimator, instructions, stream, 0..N).expect("finite samples")
 }
 
 /// Every strategy at each receiver; some by other instructions too.
@@ -69,5 +64,6 @@ fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instruc
     let query = Query::irradiance(&world.lights);
     let known = twoforms_tests::samples::known(case);
     let prepared = strategy.prepare(&world.lights);
-    group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, &known, Secondary(instructions))));
+    let estimator = prepared.at(&view, &query, &known);
+    group.bench_function(name, |bencher| bencher.iter(|| estimate(&*estimator, instructions)));
 }

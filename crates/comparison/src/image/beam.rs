@@ -2,14 +2,13 @@
 
 use glam::DVec3;
 use twoforms_estimator::estimate::NotFinite;
-use twoforms_estimator::estimator::Estimator;
-use twoforms_estimator::strategy::{Kernel, Known};
+use twoforms_estimator::strategy::Known;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::lanes;
 use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{View, Vista};
 
-use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Receive, Samples, Sum};
+use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Receive, Sum};
 use super::face::Face;
 use super::painter::{Painter, Surface};
 use super::{Centre, Crop, Pixel, PixelFilter, tile};
@@ -115,7 +114,8 @@ impl<'a> Beam<'a> {
         let Some(query) = &stage.surface.query else { return Ok(()) };
         if let Some(Lit { view, along }) = &stage.lit {
             let light = self.painter.light_samples();
-            self.painter.prepared.run(view, query, &Known::default(), Lighting { chunk, light, pane, along: *along });
+            let estimator = self.painter.prepared.at(view, query, &Known::default());
+            Receive { estimator: &*estimator, light, pane, along: *along }.all(chunk);
             return Ok(());
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
@@ -186,22 +186,5 @@ impl<'a> Beam<'a> {
             value: chunk.value.each_ref().map(|channel| channel[k] as f32),
             words: self.painter.words(chunk.stream(k)),
         })
-    }
-}
-
-/// [`Receive`] with its estimator yet to be chosen.
-struct Lighting<'c> {
-    chunk: &'c mut Chunk,
-    light: Samples,
-    pane: u32,
-    along: [[f32; 3]; 2],
-}
-
-impl Kernel for Lighting<'_> {
-    type Output = ();
-
-    fn run<E: Estimator>(self, estimator: &E) {
-        let Self { chunk, light, pane, along } = self;
-        light.instructions.run(Receive { chunk, estimator, light, pane, along });
     }
 }

@@ -3,17 +3,16 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::numbers::{BATCH, Numbers};
-use twoforms_estimator::rgb::Rgb;
 use twoforms_estimator::sampler::{ROW, Row, Sampler};
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::vector::{Vector, round};
 use twoforms_geometry::view::Vista;
-use twoforms_geometry::wide::{EIGHT, Wide};
 
 /// Camera samples that go together.
 pub(super) const SIZE: usize = 512;
@@ -257,16 +256,6 @@ impl<'c> Kernel for AddUp<'c> {
     }
 }
 
-/// The light samples of the camera samples that meet one pane, from where they meet it.
-pub(super) struct Receive<'c, E> {
-    pub(super) chunk: &'c mut Chunk,
-    pub(super) estimator: &'c E,
-    pub(super) light: Samples,
-    pub(super) pane: u32,
-    /// The vectors that give the coordinates of a point of the pane from its direction.
-    pub(super) along: [[f32; 3]; 2],
-}
-
 /// The samples of a pixel, shared out among its camera samples.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
@@ -285,82 +274,110 @@ impl Samples {
     }
 }
 
-/// Sums of colours by lane, in binary64.
-struct Sums<R: Real>([[R::Wide; 2]; 3]);
+/// The light samples of the camera samples that meet one pane, from where they meet it.
+pub(super) struct Receive<'e> {
+    pub(super) estimator: &'e dyn Estimator,
+    pub(super) light: Samples,
+    pub(super) pane: u32,
+    /// The vectors that give the coordinates of a point of the pane from its direction.
+    pub(super) along: [[f32; 3]; 2],
+}
 
-impl<R: Real> Sums<R> {
-    #[inline(always)]
-    fn zero() -> Self {
-        Self([[R::Wide::splat(0.0); 2]; 3])
-    }
+/// Indices of light samples that go together: each for a row of camera samples.
+const AT_ONCE: usize = BATCH / ROW;
 
-    #[inline(always)]
-    fn add(&mut self, Rgb(value): Rgb<R>, weight: Option<R>) {
-        for c in 0..3 {
-            let [low, high] = weight.map_or(value[c], |weight| value[c] * weight).widen();
-            self.0[c] = [self.0[c][0] + low, self.0[c][1] + high];
-        }
-    }
-
-    #[inline(always)]
-    fn by_lane(&self) -> [[f64; 3]; ROW] {
-        let mut lanes = [[0.0; 3]; ROW];
-        for c in 0..3 {
-            let mut channel = [0.0; ROW];
-            self.0[c][0].store(&mut channel[..EIGHT]);
-            self.0[c][1].store(&mut channel[EIGHT..]);
-            for lane in 0..ROW {
-                lanes[lane][c] = channel[lane];
+impl Receive<'_> {
+    /// Samples the lights for all of the chunk that meets the pane, a row of camera samples at a time.
+    pub(super) fn all(&self, chunk: &mut Chunk) {
+        let mut batch = Batch::new(self.estimator.pairs());
+        batch.from_points = true;
+        for k in (0..chunk.len).step_by(ROW) {
+            if self.look_from(chunk, k, &mut batch) {
+                self.row(chunk, k, &mut batch);
             }
         }
-        lanes
+    }
+
+    /// Where the light samples of a row look from, the same for each index; whether any of the row meets the pane.
+    fn look_from(&self, chunk: &Chunk, k: usize, batch: &mut Batch) -> bool {
+        let instructions = self.light.instructions;
+        let any = instructions.run(LookFrom { chunk, k, pane: self.pane, along: self.along, batch });
+        for index in 1..AT_ONCE.min(self.light.each as usize) {
+            for c in 0..3 {
+                batch.start[c].copy_within(..ROW, index * ROW);
+            }
+            batch.wanted.copy_within(..ROW, index * ROW);
+        }
+        any
+    }
+
+    fn row(&self, chunk: &mut Chunk, k: usize, batch: &mut Batch) {
+        let mut row = chunk.row(k, &self.light);
+        let (mut sums, mut divisors) = ([[0.0; ROW]; 3], [[0.0; ROW]; 3]);
+        for start in (0..self.light.each as usize).step_by(AT_ONCE) {
+            let indices = AT_ONCE.min(self.light.each as usize - start);
+            batch.length = indices * ROW;
+            row.fill(self.light.sampler, self.light.instructions, indices, &mut batch.numbers);
+            self.estimator.evaluate(self.light.instructions, batch);
+            add(&mut sums, &batch.worth, indices);
+            if self.estimator.is_quotient() {
+                add(&mut divisors, &batch.divisor, indices);
+            }
+            row.first.iter_mut().for_each(|first| *first += indices as u32);
+            for (entry, rays) in batch.rays[..batch.length].iter().enumerate() {
+                chunk.rays[k + entry % ROW] += rays;
+            }
+        }
+        for lane in (0..ROW).filter(|&lane| batch.wanted[lane] == 1) {
+            let of_lane = |sums: &[[f64; ROW]; 3]| [sums[0][lane], sums[1][lane], sums[2][lane]];
+            let value = self.estimator.estimate(of_lane(&sums), of_lane(&divisors), self.light.each);
+            for c in 0..3 {
+                chunk.value[c][k + lane] += value[c];
+            }
+        }
     }
 }
 
-impl<E: Estimator> Kernel for Receive<'_, E> {
-    type Output = ();
+/// Adds what a batch holds for each index to the sums of a row.
+fn add(sums: &mut [[f64; ROW]; 3], values: &[[f32; BATCH]; 3], indices: usize) {
+    for c in 0..3 {
+        for index in 0..indices {
+            for lane in 0..ROW {
+                sums[c][lane] += f64::from(values[c][index * ROW + lane]);
+            }
+        }
+    }
+}
+
+/// Where a row of camera samples meets a pane, in the frame of the view from it.
+struct LookFrom<'c> {
+    chunk: &'c Chunk,
+    k: usize,
+    pane: u32,
+    along: [[f32; 3]; 2],
+    batch: &'c mut Batch,
+}
+
+impl Kernel for LookFrom<'_> {
+    type Output = bool;
 
     #[inline(always)]
-    fn run<R: Real>(self) {
-        let Self { chunk, estimator, light, pane, along: [u, v] } = self;
-        let mut numbers = Numbers::new(estimator.pairs());
-        let at_once = BATCH / R::LANES;
-        for k in (0..chunk.len).step_by(R::LANES) {
+    fn run<R: Real>(self) -> bool {
+        let Self { chunk, k: first, pane, along: [u, v], batch } = self;
+        let mut any = false;
+        for lane in (0..ROW).step_by(R::LANES) {
+            let k = first + lane;
             let inside = R::below(R::Word::counting(k as u32), R::Word::splat(chunk.len as u32));
             let wanted = inside & R::same(R::Word::load(&chunk.pane[k..]), R::Word::splat(pane));
-            if !wanted.any() {
-                continue;
-            }
+            any |= wanted.any();
             let [x, y, z] =
                 [R::load(&chunk.toward[0][k..]), R::load(&chunk.toward[1][k..]), R::load(&chunk.toward[2][k..])];
             let (toward, t) = (Vector::new(x, y, z), R::one() / R::load(&chunk.per_t[k..]));
-            let start = Vector::new(Vector::splat(u).dot(toward) * t, Vector::splat(v).dot(toward) * t, R::zero());
-            let from = estimator.view().from_points(start).only(wanted);
-            let mut row = chunk.row(k, &light);
-            let (mut sums, mut divisors) = (Sums::<R>::zero(), Sums::<R>::zero());
-            let mut rays = R::Word::load(&chunk.rays[k..]);
-            for start in (0..light.each as usize).step_by(at_once) {
-                let length = at_once.min(light.each as usize - start);
-                light.fill(&row, length, &mut numbers);
-                for k in 0..length {
-                    let drawn = numbers.from(k * R::LANES);
-                    let worth = estimator.primary(&from, drawn);
-                    sums.add(worth.value, drawn.weight());
-                    rays = rays.wrapping_add(worth.rays);
-                    if E::QUOTIENT {
-                        divisors.add(estimator.divisor(&from, drawn), None);
-                    }
-                }
-                row.first.iter_mut().for_each(|first| *first += length as u32);
-            }
-            rays.store(&mut chunk.rays[k..]);
-            let (sums, divisors) = (sums.by_lane(), divisors.by_lane());
-            for lane in 0..R::LANES {
-                let value = estimator.estimate(sums[lane], divisors[lane], light.each);
-                for c in 0..3 {
-                    chunk.value[c][k + lane] += value[c];
-                }
-            }
+            (Vector::splat(u).dot(toward) * t).store(&mut batch.start[0][lane..]);
+            (Vector::splat(v).dot(toward) * t).store(&mut batch.start[1][lane..]);
+            R::zero().store(&mut batch.start[2][lane..]);
+            R::select_word(wanted, R::Word::splat(1), R::Word::splat(0)).store(&mut batch.wanted[lane..]);
         }
+        any
     }
 }

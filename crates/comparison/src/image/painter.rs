@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use twoforms_estimator::estimate::NotFinite;
-use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Stream;
-use twoforms_estimator::strategy::{Kernel, Known, Prepared};
+use twoforms_estimator::secondary::secondary_by;
+use twoforms_estimator::strategy::{Known, Prepared};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::lanes::Instructions;
@@ -147,9 +147,10 @@ impl<'a> Painter<'a> {
         let samples = self.light_samples();
         let effort = if samples.each >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
         let view = View::new(&self.world.geometry, Frame::new(seen.position, seen.normal), effort);
-        let secondary =
-            Secondary { stream: self.pixel_stream(&samples, stream), first: stream[1] * samples.each, samples };
-        self.prepared.run(&view, query, &Known::default(), secondary)
+        let (stream, first) = (self.pixel_stream(&samples, stream), stream[1] * samples.each);
+        let estimator = self.prepared.at(&view, query, &Known::default());
+        let estimate = secondary_by(&*estimator, samples.instructions, stream, first..first + samples.each)?;
+        Ok((estimate.value, estimate.rays))
     }
 
     /// The random words of a camera sample's first light sample.
@@ -203,22 +204,6 @@ impl<'a> Painter<'a> {
             depth: toward.dot(self.camera.forward) as f32,
             albedo: self.world.scene.albedo(seen.triangle),
         }
-    }
-}
-
-/// The mean of the light samples of one camera sample, and the rays it took.
-struct Secondary {
-    stream: Stream,
-    first: u32,
-    samples: Samples,
-}
-
-impl Kernel for Secondary {
-    type Output = Result<([f64; 3], u64), NotFinite>;
-
-    fn run<E: Estimator>(self, estimator: &E) -> Self::Output {
-        let estimate = estimator.part(self.stream, self.first..self.first + self.samples.each)?;
-        Ok((estimate.value, estimate.rays))
     }
 }
 

@@ -6,7 +6,7 @@ use twoforms_geometry::segment::Segment;
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{ByArea, Density, OnLights};
-use crate::estimator::{Estimator, Worth, count};
+use crate::estimator::{Primary, Worth, count};
 use crate::measure::Sample;
 use crate::numbers::Drawn;
 use crate::query::Query;
@@ -60,7 +60,7 @@ impl Shadow<'_> {
     }
 }
 
-impl Estimator for Ratio<'_> {
+impl Primary for Ratio<'_> {
     const QUOTIENT: bool = true;
 
     fn view(&self) -> &View<'_> {
@@ -87,7 +87,7 @@ impl Estimator for Ratio<'_> {
     }
 }
 
-impl Estimator for ControlVariate<'_> {
+impl Primary for ControlVariate<'_> {
     fn view(&self) -> &View<'_> {
         self.shadow.view
     }

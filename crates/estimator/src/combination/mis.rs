@@ -6,7 +6,7 @@
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::view::{Vantage, View};
 
-use crate::estimator::{Estimator, Worth, count};
+use crate::estimator::{Primary, Worth, count};
 use crate::numbers::Drawn;
 use crate::query::Query;
 use crate::rgb::Rgb;
@@ -24,7 +24,7 @@ pub(crate) struct Mis<'a> {
     pub(crate) alpha: Vec<[f32; 3]>,
 }
 
-impl Estimator for Mis<'_> {
+impl Primary for Mis<'_> {
     fn view(&self) -> &View<'_> {
         self.view
     }

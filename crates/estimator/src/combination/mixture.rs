@@ -3,7 +3,7 @@
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::view::{Vantage, View};
 
-use crate::estimator::{Estimator, Worth, count};
+use crate::estimator::{Primary, Worth, count};
 use crate::numbers::Drawn;
 use crate::query::Query;
 use crate::rgb::Rgb;
@@ -63,7 +63,7 @@ impl Split {
     }
 }
 
-impl Estimator for Mixture<'_> {
+impl Primary for Mixture<'_> {
     fn view(&self) -> &View<'_> {
         self.view
     }

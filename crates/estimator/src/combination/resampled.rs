@@ -9,7 +9,7 @@ use twoforms_geometry::vector::Vector;
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{ByArea, Density, OnLights};
-use crate::estimator::{Estimator, Worth, count};
+use crate::estimator::{Primary, Worth, count};
 use crate::formulation::{Area, Formulation};
 use crate::measure::Sample;
 use crate::numbers::Drawn;
@@ -64,7 +64,7 @@ impl<R: Real> Reservoir<R> {
     }
 }
 
-impl Estimator for Resampled<'_> {
+impl Primary for Resampled<'_> {
     fn view(&self) -> &View<'_> {
         self.view
     }

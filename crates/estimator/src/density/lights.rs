@@ -7,9 +7,12 @@ use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::{Vantage, View};
 
-use super::{Density, DensityKernel, OnOneTarget, Ready};
+use super::{Density, OnOneTarget, Ready};
+use crate::estimator::{Estimator, Single};
+use crate::formulation::Formulation;
 use crate::lights::Lights;
 use crate::measure::{Pdf, Sample, SurfaceArea};
+use crate::query::Query;
 use crate::selection::{Picker, Selection};
 use crate::xi::Xi;
 
@@ -88,10 +91,13 @@ impl Ready for AreaOnLights {
         OnLights { picker, spread: ByArea }
     }
 
-    fn with<K: DensityKernel<SurfaceArea>>(&self, view: &View, lights: &Lights, kernel: K) -> K::Output {
-        match lights.areas() {
-            &[area] => kernel.run(OnOneTarget::new(area)),
-            _ => kernel.run(self.at(view, lights)),
+    fn boxed<'a, F>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Box<dyn Estimator + 'a>
+    where
+        F: Formulation<Measure = SurfaceArea> + 'a,
+    {
+        match query.lights().areas() {
+            &[area] => Box::new(Single::<F, _>::new(view, query, OnOneTarget::new(area))),
+            _ => Box::new(Single::<F, _>::new(view, query, self.at(view, query.lights()))),
         }
     }
 }

@@ -23,8 +23,11 @@ use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
 use twoforms_geometry::view::{Vantage, View};
 
+use crate::estimator::{Estimator, Single};
+use crate::formulation::Formulation;
 use crate::lights::Lights;
 use crate::measure::{Measure, Pdf, Sample};
+use crate::query::Query;
 use crate::selection::Selection;
 use crate::xi::Xi;
 
@@ -55,16 +58,12 @@ pub trait Ready: Sized + Send + Sync {
     /// The density at x.
     fn at<'a>(&'a self, view: &View, lights: &Lights) -> Self::At<'a>;
 
-    /// Hands the density at x to a kernel: that of [`Ready::at`], or a simpler one that draws the same points.
-    fn with<K: DensityKernel<Self::Measure>>(&self, view: &View, lights: &Lights, kernel: K) -> K::Output {
-        kernel.run(self.at(view, lights))
+    /// The estimator of `query` at x by a formulation and this density: with that of [`Ready::at`], or with a simpler one that
+    /// draws the same points.
+    fn boxed<'a, F>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Box<dyn Estimator + 'a>
+    where
+        F: Formulation<Measure = Self::Measure> + 'a,
+    {
+        Box::new(Single::<F, _>::new(view, query, self.at(view, query.lights())))
     }
-}
-
-/// Something to do with a density, whichever it is.
-pub trait DensityKernel<M: Measure> {
-    /// What comes of it.
-    type Output;
-    /// Does it.
-    fn run<D: Density<M>>(self, density: D) -> Self::Output;
 }

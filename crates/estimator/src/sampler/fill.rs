@@ -52,8 +52,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// Fills the batch with ξ of these samples, then of the next index of each, and so on, for `length` indices: sample k
-    /// of a row of as many as the instructions hold side by side, and the i-th index, lie at i × (that many) + k.
+    /// Fills the batch with ξ of these samples, then of the next index of each, and so on, for `length` indices: the
+    /// i-th index of sample k lies at i × [`ROW`] + k.
     pub fn fill(&self, sampler: Sampler, instructions: Instructions, length: usize, numbers: &mut Numbers) {
         sampler.run(Across { row: self, instructions, length, numbers });
     }
@@ -152,16 +152,19 @@ impl<S: Spread> Kernel for By<Across<'_, '_>, S> {
     #[inline(always)]
     fn run<R: Real>(self) {
         let Across { row: Row { key, n, streams, first }, length, numbers, .. } = self.0;
-        let (streams, first) = ([R::Word::load(&streams[0]), R::Word::load(&streams[1])], R::Word::load(first));
-        let common = common(*key, streams);
         let mut weights = weights::<S>(&mut numbers.weights);
-        for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
-            let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, streams, pair as u32));
-            for (k, offset) in (0..BATCH).step_by(R::LANES).take(length).enumerate() {
-                let place = Place { index: first.wrapping_add(R::Word::splat(k as u32)), seed, common };
-                put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
-                if let Some(weights) = &mut weights {
-                    S::weight::<R>(&plan, &place).store(&mut weights[offset..]);
+        for lane in (0..ROW).step_by(R::LANES) {
+            let streams = [R::Word::load(&streams[0][lane..]), R::Word::load(&streams[1][lane..])];
+            let (common, first) = (common(*key, streams), R::Word::load(&first[lane..]));
+            for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
+                let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, streams, pair as u32));
+                for index in 0..length {
+                    let offset = index * ROW + lane;
+                    let place = Place { index: first.wrapping_add(R::Word::splat(index as u32)), seed, common };
+                    put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
+                    if let Some(weights) = &mut weights {
+                        S::weight::<R>(&plan, &place).store(&mut weights[offset..]);
+                    }
                 }
             }
         }

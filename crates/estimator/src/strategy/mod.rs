@@ -7,7 +7,7 @@ mod team;
 mod weighting;
 
 pub use name::UnknownStrategy;
-pub use prepared::{Kernel, Known, Prepared};
+pub use prepared::{Known, Prepared};
 pub use team::{MOST, Member, Team};
 pub use weighting::Weighting;
 

@@ -2,12 +2,11 @@
 
 use super::{AREA, Strategy, Team, Weighting};
 use crate::combination::{ControlVariate, Mis, Mixture, Ratio, Resampled, Shadow, Split};
-use crate::density::{AreaOnLights, ByArea, Density, OnLights, Ready};
-use crate::estimator::{Estimator, Single};
-use crate::formulation::Formulation;
+use crate::density::{AreaOnLights, ByArea, OnLights, Ready};
+use crate::estimator::Estimator;
 use crate::lights::Lights;
 use crate::query::Query;
-use crate::technique::{Prepared as PreparedTechnique, SingleKernel, Technique};
+use crate::technique::{Prepared as PreparedTechnique, Technique};
 use twoforms_geometry::view::View;
 
 /// A strategy with what it needs of one scene.
@@ -16,14 +15,6 @@ pub struct Prepared {
     strategy: Strategy,
     techniques: Vec<PreparedTechnique>,
     points: AreaOnLights,
-}
-
-/// Something to do with an estimator, whichever it is: matched once, then wholly inlined.
-pub trait Kernel {
-    /// What comes of it.
-    type Output;
-    /// Does it.
-    fn run<E: Estimator>(self, estimator: &E) -> Self::Output;
 }
 
 /// What is known of the light at x beforehand, for strategies that use it.
@@ -88,46 +79,30 @@ impl Prepared {
         by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
     }
 
-    /// Runs the kernel with this strategy's estimator at x.
+    /// The strategy's estimator at x.
     ///
     /// # Panics
     /// When the strategy needs α and `known` has none.
-    pub fn run<'a, K: Kernel>(
-        &'a self,
-        view: &'a View<'a>,
-        query: &'a Query<'a>,
-        known: &Known,
-        kernel: K,
-    ) -> K::Output {
+    pub fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Box<dyn Estimator + 'a> {
         let at = |k: usize| self.techniques[k].at(view, query);
         match self.strategy {
-            Strategy::Single(_) => self.techniques[0].run(view, query, OfSingle(kernel)),
+            Strategy::Single(_) => self.techniques[0].boxed(view, query),
             Strategy::Mis(weighting, team) => {
                 let team = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
                 let alpha = known.alpha.iter().flatten().map(|alpha| alpha.map(|alpha| alpha as f32));
                 let alpha = if weighting == Weighting::Optimal { alpha.collect() } else { Vec::new() };
                 assert!(weighting != Weighting::Optimal || !alpha.is_empty(), "optimal weights without α");
-                kernel.run(&Mis { view, query, team, weighting, alpha })
+                Box::new(Mis { view, query, team, weighting, alpha })
             }
             Strategy::Mixture(share, _) => {
-                kernel.run(&Mixture { view, query, pair: [at(0), at(1)], split: Split::new(share) })
+                Box::new(Mixture { view, query, pair: [at(0), at(1)], split: Split::new(share) })
             }
             Strategy::Resampled(candidates) => {
-                kernel.run(&Resampled { view, query, density: self.points(view, query), candidates })
+                Box::new(Resampled { view, query, density: self.points(view, query), candidates })
             }
-            Strategy::Ratio => kernel.run(&Ratio { shadow: self.shadow(view, query) }),
-            Strategy::ControlVariate => kernel.run(&ControlVariate { shadow: self.shadow(view, query) }),
+            Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query) }),
+            Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query) }),
         }
-    }
-
-    /// Runs the kernel with the estimator of each technique that the strategy draws samples of.
-    pub fn run_singles<'a, K: SingleKernel + Clone>(
-        &'a self,
-        view: &'a View<'a>,
-        query: &'a Query<'a>,
-        kernel: &K,
-    ) -> Vec<K::Output> {
-        self.techniques.iter().map(|technique| technique.at(view, query).run(kernel.clone())).collect()
     }
 
     fn points(&self, view: &View, query: &Query) -> OnLights<'_, ByArea> {
@@ -136,16 +111,5 @@ impl Prepared {
 
     fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {
         Shadow { view, query, density: self.points(view, query), unoccluded: query.unoccluded(view) }
-    }
-}
-
-/// A kernel for any estimator, for that of a technique.
-struct OfSingle<K>(K);
-
-impl<K: Kernel> SingleKernel for OfSingle<K> {
-    type Output = K::Output;
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, single: &Single<F, D>) -> K::Output {
-        self.0.run(single)
     }
 }

@@ -107,8 +107,9 @@ impl Experiment {
         plans: &[Plan],
         progress: &(dyn Fn(u64) + Sync),
         report: &mut Report,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), ComparisonError> {
         let ready: Vec<Ready> = places.par_iter().map(|place| Ready::new(world, place, &self.strategies)).collect();
+        self.check_known(places, &ready)?;
         let tasks: Vec<Task> =
             (0..places.len()).flat_map(|p| (0..plans.len()).flat_map(move |r| self.tasks(p, r, &plans[r]))).collect();
         let measured: Vec<Result<Measurement, Broken>> = tasks
@@ -134,6 +135,20 @@ impl Experiment {
             report.add(place, ready.setup_seconds, &rows, &ready.answer);
         }
         Ok(())
+    }
+
+    /// Makes sure that what strategies must know beforehand is known everywhere.
+    fn check_known(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
+        let Some(strategy) = self.strategies.iter().find(|strategy| strategy.needs_alpha()) else { return Ok(()) };
+        let unknown = places.iter().zip(ready).find(|(_, ready)| ready.answer.known().alpha.is_none());
+        match unknown {
+            None => Ok(()),
+            Some((place, ready)) => Err(ComparisonError::Impossible(format!(
+                "\"{strategy}\" needs α, which is not known at receiver \"{}\": {}; leave the strategy or the receiver out",
+                place.name,
+                ready.answer.irradiance().err().unwrap_or("its integrals do not converge there"),
+            ))),
+        }
     }
 
     /// Cuts one row's replicates into tasks, by N and R alone.

@@ -7,11 +7,12 @@ use std::time::Instant;
 use twoforms_estimator::density::{
     AreaOnLights, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights, TowardLightsMarginally,
 };
-use twoforms_estimator::estimator::{Estimator, Single};
+use twoforms_estimator::estimator::Single;
 use twoforms_estimator::formulation::{Area, Formulation, Hemisphere};
 use twoforms_estimator::lights::Lights;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
+use twoforms_estimator::secondary::secondary;
 use twoforms_estimator::selection::Selection;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::{Kind, Technique};
@@ -67,7 +68,7 @@ impl At<'_> {
         let draws = Draws { key: Key::new([7]), stream: [self.samples, 0] };
         let stream = Stream { sampler: Sampler::Independent, draws, n: self.samples };
         let begin = Instant::now();
-        let estimate = estimator.secondary(stream).expect("finite samples");
+        let estimate = secondary(&estimator, stream).expect("finite samples");
         let seconds = begin.elapsed().as_secs_f64();
         let (mean, variance) = (estimate.luminance.mean, estimate.luminance.m2 / f64::from(self.samples - 1));
         let truth = self.sight.irradiance().luminance;

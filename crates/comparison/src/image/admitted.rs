@@ -13,7 +13,7 @@ impl Rendering {
     /// samples, which are another.
     pub(super) fn admit(&self) -> Result<(), ComparisonError> {
         let Self { strategy, sampler, spp, light_samples, .. } = *self;
-        if let Some(why) = strategy.impossible() {
+        if let Some(why) = strategy.impossible_in_images() {
             return Err(ComparisonError::Impossible(why));
         }
         if !sampler.is_random() {

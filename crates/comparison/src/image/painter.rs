@@ -258,7 +258,7 @@ mod tests {
             let world = world(name);
             let auto = viewpoint::auto(&world.scene.mesh);
             let camera = world.scene.cameras.first().or(auto.as_ref()).expect("a camera");
-            for strategy in Strategy::all() {
+            for strategy in Strategy::all_in_images() {
                 let rendering = rendering(strategy, strategy != Strategy::from(Kind::HemisphereUniform));
                 let painter = Painter::new(&rendering, &world, camera);
                 let beams = rendering.run(&world, camera, &|_| ()).expect("finite samples");

@@ -49,6 +49,11 @@ impl Strategy {
         all
     }
 
+    /// Those of them that images can be made by.
+    pub fn all_in_images() -> Vec<Self> {
+        Self::all().into_iter().filter(|strategy| strategy.impossible_in_images().is_none()).collect()
+    }
+
     /// What `compare` compares when nothing is said.
     pub fn defaults() -> Vec<Self> {
         let kinds = [Kind::HemisphereUniform, Kind::HemisphereCosine, Kind::HemisphereTowardLights, Kind::AreaUniform];

@@ -46,6 +46,12 @@ impl Strategy {
         }
     }
 
+    /// Why the strategy can't be sampled in an image, if it can't.
+    pub fn impossible_in_images(self) -> Option<String> {
+        let needs = || format!("\"{self}\" needs the α of each point, which an image does not know: take mis/balance");
+        self.impossible().or_else(|| self.needs_alpha().then(needs))
+    }
+
     /// Pairs of random numbers that a sample takes.
     pub fn pairs(self) -> usize {
         match self {

@@ -2,17 +2,21 @@
 
 use twoforms_geometry::real::Real;
 
+use crate::sampler::ROW;
 use crate::xi::Xi;
 
 /// Samples evaluated together.
 pub const BATCH: usize = 128;
 
+/// Places for their numbers: some more, since as many are written at once as lie side by side.
+pub(crate) const ROOM: usize = BATCH + ROW;
+
 /// ξ of a batch of samples: two words a sample for each pair of numbers that it takes.
 #[derive(Clone, Debug)]
 pub struct Numbers {
-    pub(crate) pairs: Vec<[[u32; BATCH]; 2]>,
+    pub(crate) pairs: Vec<[[u32; ROOM]; 2]>,
     /// What samples count, where they do not count alike.
-    pub(crate) weights: Option<Box<[f32; BATCH]>>,
+    pub(crate) weights: Option<Box<[f32; ROOM]>>,
 }
 
 /// ξ of samples that lie side by side in a batch.
@@ -25,7 +29,7 @@ pub struct Drawn<'n> {
 impl Numbers {
     /// Room for samples that take so many pairs.
     pub fn new(pairs: usize) -> Self {
-        Self { pairs: vec![[[0; BATCH]; 2]; pairs], weights: None }
+        Self { pairs: vec![[[0; ROOM]; 2]; pairs], weights: None }
     }
 
     /// ξ of the samples from `offset` on.

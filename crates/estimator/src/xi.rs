@@ -3,7 +3,7 @@
 use rand_philox::splitmix64;
 use twoforms_geometry::real::{Real, Word};
 
-use crate::numbers::BATCH;
+use crate::numbers::ROOM;
 
 /// Who asks for random numbers. Two askers with different keys have independent numbers; the same key always has the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,7 +50,7 @@ impl<R: Real> Xi<R> {
 
     /// ξ of the samples from `offset` on.
     #[inline(always)]
-    pub fn load(words: &[[u32; BATCH]; 2], offset: usize) -> Self {
+    pub(crate) fn load(words: &[[u32; ROOM]; 2], offset: usize) -> Self {
         Self { words: [R::Word::load(&words[0][offset..]), R::Word::load(&words[1][offset..])] }
     }
 

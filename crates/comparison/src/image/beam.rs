@@ -8,9 +8,10 @@ use twoforms_geometry::lanes;
 use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{View, Vista};
 
-use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Receive, Sum};
+use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Sum};
 use super::face::Face;
 use super::painter::{Painter, Surface};
+use super::receive::Receive;
 use super::{Centre, Crop, Pixel, PixelFilter, tile};
 use crate::error::BrokenPixel;
 use crate::world::Seen;

@@ -3,16 +3,15 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use twoforms_estimator::batch::Batch;
-use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
-use twoforms_estimator::numbers::{BATCH, Numbers};
-use twoforms_estimator::sampler::{ROW, Row, Sampler};
-use twoforms_estimator::xi::Key;
-use twoforms_geometry::lanes::{Instructions, Kernel};
-use twoforms_geometry::real::{Mask, Real, Word};
+use twoforms_estimator::numbers::Numbers;
+use twoforms_estimator::sampler::{ROW, Row};
+use twoforms_geometry::lanes::Kernel;
+use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::vector::{Vector, round};
 use twoforms_geometry::view::Vista;
+
+use super::samples::Samples;
 
 /// Camera samples that go together.
 pub(super) const SIZE: usize = 512;
@@ -159,6 +158,18 @@ impl Chunk {
         self.rays[k] += rays;
     }
 
+    /// How many camera samples there are.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Directions of the samples from `k` on, in the frame of the eye, and 1/t to the surfaces along them.
+    #[inline(always)]
+    pub(super) fn direction<R: Real>(&self, k: usize) -> (Vector<R>, R) {
+        let [x, y, z] = self.toward.each_ref();
+        (Vector::new(R::load(&x[k..]), R::load(&y[k..]), R::load(&z[k..])), R::load(&self.per_t[k..]))
+    }
+
     /// Rays asked for by the light samples of some camera samples.
     pub(super) fn rays(&self, places: Range<usize>) -> u64 {
         self.rays[places].iter().map(|&rays| u64::from(rays)).sum()
@@ -185,7 +196,7 @@ impl Kernel for Aim<'_> {
         let (samples, mut numbers) = (&self.samples, Numbers::new(1));
         for k in (0..chunk.len).step_by(R::LANES) {
             let [dx, dy] = if self.spread {
-                samples.fill(&chunk.row(k, samples), 1, &mut numbers);
+                samples.fill(&chunk.row(k, samples), &mut numbers);
                 numbers.from(0).xi::<R>(0).uv()
             } else {
                 [R::splat(0.5), R::splat(0.5)]
@@ -253,131 +264,5 @@ impl<'c> Kernel for AddUp<'c> {
             }
         }
         None
-    }
-}
-
-/// The samples of a pixel, shared out among its camera samples.
-#[derive(Clone, Copy)]
-pub(super) struct Samples {
-    pub(super) sampler: Sampler,
-    pub(super) key: Key,
-    /// How many of the pixel's samples each camera sample has.
-    pub(super) each: u32,
-    /// Camera samples of a pixel.
-    pub(super) spp: u32,
-    pub(super) instructions: Instructions,
-}
-
-impl Samples {
-    fn fill(&self, row: &Row, length: usize, numbers: &mut Numbers) {
-        row.fill(self.sampler, self.instructions, length, numbers);
-    }
-}
-
-/// The light samples of the camera samples that meet one pane, from where they meet it.
-pub(super) struct Receive<'e> {
-    pub(super) estimator: &'e dyn Estimator,
-    pub(super) light: Samples,
-    pub(super) pane: u32,
-    /// The vectors that give the coordinates of a point of the pane from its direction.
-    pub(super) along: [[f32; 3]; 2],
-}
-
-/// Indices of light samples that go together: each for a row of camera samples.
-const AT_ONCE: usize = BATCH / ROW;
-
-impl Receive<'_> {
-    /// Samples the lights for all of the chunk that meets the pane, a row of camera samples at a time.
-    pub(super) fn all(&self, chunk: &mut Chunk) {
-        let mut batch = Batch::new(self.estimator.pairs());
-        batch.from_points = true;
-        for k in (0..chunk.len).step_by(ROW) {
-            if self.look_from(chunk, k, &mut batch) {
-                self.row(chunk, k, &mut batch);
-            }
-        }
-    }
-
-    /// Where the light samples of a row look from, the same for each index; whether any of the row meets the pane.
-    fn look_from(&self, chunk: &Chunk, k: usize, batch: &mut Batch) -> bool {
-        let instructions = self.light.instructions;
-        let any = instructions.run(LookFrom { chunk, k, pane: self.pane, along: self.along, batch });
-        for index in 1..AT_ONCE.min(self.light.each as usize) {
-            for c in 0..3 {
-                batch.start[c].copy_within(..ROW, index * ROW);
-            }
-            batch.wanted.copy_within(..ROW, index * ROW);
-        }
-        any
-    }
-
-    fn row(&self, chunk: &mut Chunk, k: usize, batch: &mut Batch) {
-        let mut row = chunk.row(k, &self.light);
-        let (mut sums, mut divisors) = ([[0.0; ROW]; 3], [[0.0; ROW]; 3]);
-        for start in (0..self.light.each as usize).step_by(AT_ONCE) {
-            let indices = AT_ONCE.min(self.light.each as usize - start);
-            batch.length = indices * ROW;
-            row.fill(self.light.sampler, self.light.instructions, indices, &mut batch.numbers);
-            self.estimator.evaluate(self.light.instructions, batch);
-            add(&mut sums, &batch.worth, indices);
-            if self.estimator.is_quotient() {
-                add(&mut divisors, &batch.divisor, indices);
-            }
-            row.first.iter_mut().for_each(|first| *first += indices as u32);
-            for (entry, rays) in batch.rays[..batch.length].iter().enumerate() {
-                chunk.rays[k + entry % ROW] += rays;
-            }
-        }
-        for lane in (0..ROW).filter(|&lane| batch.wanted[lane] == 1) {
-            let of_lane = |sums: &[[f64; ROW]; 3]| [sums[0][lane], sums[1][lane], sums[2][lane]];
-            let value = self.estimator.estimate(of_lane(&sums), of_lane(&divisors), self.light.each);
-            for c in 0..3 {
-                chunk.value[c][k + lane] += value[c];
-            }
-        }
-    }
-}
-
-/// Adds what a batch holds for each index to the sums of a row.
-fn add(sums: &mut [[f64; ROW]; 3], values: &[[f32; BATCH]; 3], indices: usize) {
-    for c in 0..3 {
-        for index in 0..indices {
-            for lane in 0..ROW {
-                sums[c][lane] += f64::from(values[c][index * ROW + lane]);
-            }
-        }
-    }
-}
-
-/// Where a row of camera samples meets a pane, in the frame of the view from it.
-struct LookFrom<'c> {
-    chunk: &'c Chunk,
-    k: usize,
-    pane: u32,
-    along: [[f32; 3]; 2],
-    batch: &'c mut Batch,
-}
-
-impl Kernel for LookFrom<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<R: Real>(self) -> bool {
-        let Self { chunk, k: first, pane, along: [u, v], batch } = self;
-        let mut any = false;
-        for lane in (0..ROW).step_by(R::LANES) {
-            let k = first + lane;
-            let inside = R::below(R::Word::counting(k as u32), R::Word::splat(chunk.len as u32));
-            let wanted = inside & R::same(R::Word::load(&chunk.pane[k..]), R::Word::splat(pane));
-            any |= wanted.any();
-            let [x, y, z] =
-                [R::load(&chunk.toward[0][k..]), R::load(&chunk.toward[1][k..]), R::load(&chunk.toward[2][k..])];
-            let (toward, t) = (Vector::new(x, y, z), R::one() / R::load(&chunk.per_t[k..]));
-            (Vector::splat(u).dot(toward) * t).store(&mut batch.start[0][lane..]);
-            (Vector::splat(v).dot(toward) * t).store(&mut batch.start[1][lane..]);
-            R::zero().store(&mut batch.start[2][lane..]);
-            R::select_word(wanted, R::Word::splat(1), R::Word::splat(0)).store(&mut batch.wanted[lane..]);
-        }
-        any
     }
 }

@@ -5,6 +5,8 @@ mod beam;
 mod chunk;
 mod face;
 mod painter;
+mod receive;
+mod samples;
 mod tile;
 
 use rayon::prelude::*;

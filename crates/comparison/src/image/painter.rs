@@ -4,10 +4,9 @@ use glam::DVec3;
 use twoforms_estimator::estimate::NotFinite;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
-use twoforms_estimator::sampler::Stream;
 use twoforms_estimator::secondary::secondary_by;
 use twoforms_estimator::strategy::{Known, Prepared};
-use twoforms_estimator::xi::{Draws, Key};
+use twoforms_estimator::xi::Key;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::vector::round;
@@ -16,7 +15,7 @@ use twoforms_scene::Camera;
 
 use super::beam::Beam;
 use super::chunk::Chunk;
-use super::chunk::Samples;
+use super::samples::Samples;
 use super::{Centre, Crop, Pixel, PixelFilter, Rendering};
 use crate::error::BrokenPixel;
 use crate::viewpoint;
@@ -107,13 +106,9 @@ impl<'a> Painter<'a> {
 
     fn camera_sample(&self, x: u32, y: u32, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
         let [dx, dy] = match self.rendering.filter {
-            PixelFilter::Box => self
-                .pixel_stream(&self.camera_samples(), stream)
-                .xi(stream[1], 1)
-                .from(0)
-                .xi(0)
-                .uv()
-                .map(<f64 as From<f32>>::from),
+            PixelFilter::Box => {
+                self.camera_samples().stream(stream).xi(stream[1], 1).from(0).xi(0).uv().map(<f64 as From<f32>>::from)
+            }
             PixelFilter::Point => [0.5; 2],
         };
         match self.look(f64::from(x) + dx, f64::from(y) + dy) {
@@ -147,7 +142,7 @@ impl<'a> Painter<'a> {
         let samples = self.light_samples();
         let effort = if samples.each >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
         let view = View::new(&self.world.geometry, Frame::new(seen.position, seen.normal), effort);
-        let (stream, first) = (self.pixel_stream(&samples, stream), stream[1] * samples.each);
+        let (stream, first) = (samples.stream(stream), stream[1] * samples.each);
         let estimator = self.prepared.at(&view, query, &Known::default());
         let estimate = secondary_by(&*estimator, samples.instructions, stream, first..first + samples.each)?;
         Ok((estimate.value, estimate.rays))
@@ -156,7 +151,7 @@ impl<'a> Painter<'a> {
     /// The random words of a camera sample's first light sample.
     pub(super) fn words(&self, stream: [u32; 2]) -> Vec<[u32; 2]> {
         let samples = self.light_samples();
-        self.pixel_stream(&samples, stream).xi(stream[1] * samples.each, 1).words(0)
+        samples.stream(stream).xi(stream[1] * samples.each, 1).words(0)
     }
 
     /// Where in its pixel each camera sample lies.
@@ -172,12 +167,6 @@ impl<'a> Painter<'a> {
     fn samples(&self, key: Key, each: u32) -> Samples {
         let Rendering { sampler, spp, .. } = *self.rendering;
         Samples { sampler, key, each, spp, instructions: Instructions::best() }
-    }
-
-    /// The stream of a pixel, from the pixel's number and a camera sample.
-    fn pixel_stream(&self, samples: &Samples, [pixel, _]: [u32; 2]) -> Stream {
-        let draws = Draws { key: samples.key, stream: [pixel, 0] };
-        Stream { sampler: samples.sampler, draws, n: samples.spp * samples.each }
     }
 
     /// Direction from the camera through a point of the image, in pixels.

@@ -1,12 +1,13 @@
 //! Filling a batch with random numbers: samples of one estimate in a row, or of many estimates side by side.
 
 use std::marker::PhantomData;
+use std::ops::Range;
 
 use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::real::{Real, Word};
 
 use super::{Place, Sampler, Spread};
-use crate::numbers::{BATCH, Numbers};
+use crate::numbers::{Numbers, ROOM};
 use crate::philox::philox4x32_10;
 use crate::xi::{Draws, Key};
 
@@ -27,7 +28,12 @@ pub struct Stream {
 impl Stream {
     /// Fills the batch with ξ of `length` samples from `first` on.
     pub fn fill(&self, instructions: Instructions, first: u32, length: usize, numbers: &mut Numbers) {
-        self.sampler.run(Along { stream: self, instructions, first, length, numbers });
+        self.fill_at(instructions, first, 0..length, numbers);
+    }
+
+    /// Fills places of the batch with ξ of as many samples from `first` on; what follows the places is written to as well.
+    pub fn fill_at(&self, instructions: Instructions, first: u32, places: Range<usize>, numbers: &mut Numbers) {
+        self.sampler.run(Along { stream: self, instructions, first, places, numbers });
     }
 
     /// ξ of one sample that takes so many pairs, at the batch's beginning.
@@ -68,7 +74,7 @@ struct Along<'s, 'n> {
     stream: &'s Stream,
     instructions: Instructions,
     first: u32,
-    length: usize,
+    places: Range<usize>,
     numbers: &'n mut Numbers,
 }
 
@@ -108,9 +114,9 @@ fn common<W: Word>(key: Key, [one, other]: [W; 2]) -> [W; 2] {
 }
 
 /// The weights to fill, all of them 1 so far; nothing where samples count alike.
-fn weights<S: Spread>(weights: &mut Option<Box<[f32; BATCH]>>) -> Option<&mut [f32; BATCH]> {
+fn weights<S: Spread>(weights: &mut Option<Box<[f32; ROOM]>>) -> Option<&mut [f32; ROOM]> {
     if S::WEIGHTED {
-        Some(&mut **weights.get_or_insert_with(|| Box::new([1.0; BATCH])))
+        Some(&mut **weights.get_or_insert_with(|| Box::new([1.0; ROOM])))
     } else {
         *weights = None;
         None
@@ -130,13 +136,13 @@ impl<S: Spread> Kernel for By<Along<'_, '_>, S> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, length, numbers, .. } = self.0;
+        let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, places, numbers, .. } = self.0;
         let common = common(*key, *stream).map(R::Word::splat);
         let mut weights = weights::<S>(&mut numbers.weights);
         for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
             let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, *stream, pair as u32).map(R::Word::splat));
-            for offset in (0..length).step_by(R::LANES) {
-                let place = Place { index: R::Word::counting(first + offset as u32), seed, common };
+            for offset in places.clone().step_by(R::LANES) {
+                let place = Place { index: R::Word::counting(first + (offset - places.start) as u32), seed, common };
                 put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
                 if let Some(weights) = &mut weights {
                     S::weight::<R>(&plan, &place).store(&mut weights[offset..]);

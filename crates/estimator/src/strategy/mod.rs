@@ -56,7 +56,14 @@ impl Strategy {
 
     /// What `compare` compares when nothing is said.
     pub fn defaults() -> Vec<Self> {
-        let kinds = [Kind::HemisphereUniform, Kind::HemisphereCosine, Kind::HemisphereTowardLights, Kind::AreaUniform];
+        let kinds = [
+            Kind::HemisphereUniform,
+            Kind::HemisphereCosine,
+            Kind::HemisphereTowardLights,
+            Kind::AreaUniform,
+            Kind::AreaSolidAngle,
+            Kind::AreaProjectedSolidAngle,
+        ];
         let mut defaults: Vec<Self> = kinds.into_iter().map(|kind| Self::Single(Technique::of(kind))).collect();
         defaults.push(Self::Mis(Weighting::Balance, Team::default()));
         defaults

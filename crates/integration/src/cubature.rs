@@ -18,6 +18,8 @@ pub struct Integral {
 
 /// Evaluations after which no more cells are halved.
 const EVALUATIONS: usize = 1 << 23;
+/// Width below which no cell is halved: a pole that needs it is hardly one that can be integrated.
+const NARROWEST: f64 = 1e-90;
 
 /// ∫ g dξ over the unit cube of `dimension` axes, with an error of at most `relative` times ∫ |g|, or at most `absolute`.
 ///
@@ -26,7 +28,8 @@ const EVALUATIONS: usize = 1 << 23;
 /// much. What happens between the nodes of the first cells, two along each axis, is not seen.
 ///
 /// # Errors
-/// [`Error::NotConverged`] after some eight million evaluations, or where g is not finite.
+/// [`Error::NotConverged`] after some eight million evaluations, where cells would have to be narrower than rounding allows, as at
+/// a pole that cannot be integrated, and where g is not finite.
 pub fn integrate(dimension: usize, g: impl Fn(&[f64]) -> f64, relative: f64, absolute: f64) -> Result<Integral, Error> {
     let rules = Rules::new(dimension);
     let mut patches = vec![vec![0.0..1.0; dimension]];
@@ -41,8 +44,9 @@ pub fn integrate(dimension: usize, g: impl Fn(&[f64]) -> f64, relative: f64, abs
         if total.error <= allowed {
             return Ok(total);
         }
+        let stuck = Error::NotConverged { value: total.value, error: total.error, evaluations };
         if evaluations > EVALUATIONS || !total.error.is_finite() {
-            return Err(Error::NotConverged { value: total.value, error: total.error, evaluations });
+            return Err(stuck);
         }
         let share = allowed / cells.len() as f64;
         let mut refined = Vec::with_capacity(2 * cells.len());
@@ -51,6 +55,9 @@ pub fn integrate(dimension: usize, g: impl Fn(&[f64]) -> f64, relative: f64, abs
                 refined.push(cell);
             } else {
                 let axis = cell.worst_axis(&rules, &g);
+                if is_narrow(&cell.patch, axis) {
+                    return Err(stuck);
+                }
                 refined.extend(halves(&cell.patch, axis).map(|half| Cell::new(&rules, half, &g)));
                 evaluations += (2 + dimension) * rules.cost();
             }
@@ -80,6 +87,11 @@ fn halves(patch: &Patch, axis: usize) -> [Patch; 2] {
         patch[axis] = half;
         patch
     })
+}
+
+/// Whether there is nothing between the ends of a side worth halving at.
+fn is_narrow(patch: &Patch, axis: usize) -> bool {
+    patch.get(axis).is_none_or(|side| side.end - side.start <= NARROWEST.max(2.0 * f64::EPSILON * side.start))
 }
 
 /// The Gauss–Legendre rule whose value is taken, and the one that it is judged by.

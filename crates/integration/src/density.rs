@@ -23,7 +23,7 @@ pub trait Density {
     fn pdf(&self, x: &Point<Self>) -> f64;
 }
 
-/// The same density everywhere, p = 1/μ.
+/// The same density everywhere in the domain, p = 1/μ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform<D>(pub D);
 
@@ -38,7 +38,7 @@ impl<D: Domain> Density for Uniform<D> {
         self.0.at(xi)
     }
 
-    fn pdf(&self, _: &D::Point) -> f64 {
-        1.0 / self.0.measure()
+    fn pdf(&self, x: &D::Point) -> f64 {
+        if self.0.contains(x) { 1.0 / self.0.measure() } else { 0.0 }
     }
 }

@@ -22,6 +22,9 @@ use crate::error::Error;
 ///     fn measure(&self) -> f64 {
 ///         0.5
 ///     }
+///     fn contains(&self, [x, y]: &[f64; 2]) -> bool {
+///         0.0 <= *y && y <= x && *x <= 1.0
+///     }
 ///     fn at(&self, xi: &[f64]) -> [f64; 2] {
 ///         let x = xi[0].sqrt();
 ///         [x, x * xi[1]]
@@ -42,6 +45,9 @@ pub trait Domain {
 
     /// μ: the measure of all of it, in the unit of the measure.
     fn measure(&self) -> f64;
+
+    /// Whether a point lies in it.
+    fn contains(&self, x: &Self::Point) -> bool;
 
     /// The point x(ξ), from as many ξ in (0, 1) as [`dimension`](Self::dimension) says.
     fn at(&self, xi: &[f64]) -> Self::Point;
@@ -82,14 +88,14 @@ impl Interval {
         self.b - self.a
     }
 
-    /// Whether a <= x <= b.
-    pub fn contains(&self, x: f64) -> bool {
-        self.a <= x && x <= self.b
+    /// The nearest number of the interval: x itself where it lies inside.
+    pub fn nearest(&self, x: f64) -> f64 {
+        x.clamp(self.a, self.b)
     }
 
     /// (x − a)/(b − a), and 0 or 1 for an x before or beyond the interval.
     pub fn share(&self, x: f64) -> f64 {
-        ((x - self.a) / self.length()).clamp(0.0, 1.0)
+        (self.nearest(x) - self.a) / self.length()
     }
 }
 
@@ -104,7 +110,12 @@ impl Domain for Interval {
         self.length()
     }
 
+    fn contains(&self, x: &f64) -> bool {
+        self.a <= *x && *x <= self.b
+    }
+
+    /// a + (b − a) ξ, which rounding shall not carry beyond b.
     fn at(&self, xi: &[f64]) -> f64 {
-        self.a + self.length() * xi[0]
+        self.nearest(self.a + self.length() * xi[0])
     }
 }

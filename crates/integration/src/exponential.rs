@@ -51,7 +51,7 @@ impl Density for Exponential {
 
     /// x = a − ln(1 − ξ (1 − e^(−λ(b − a))))/λ.
     fn sample(&self, xi: &[f64]) -> f64 {
-        self.a - log1p(-xi[0] * self.before(self.b)) / self.rate
+        (self.a - log1p(-xi[0] * self.before(self.b)) / self.rate).min(self.b)
     }
 
     fn pdf(&self, x: &f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Densities given by their functions, inverted in closed form or numerically.
 
 use crate::density::Density;
-use crate::domain::Interval;
+use crate::domain::{Domain, Interval};
 use crate::error::Error;
 use crate::line::Line;
 
@@ -47,7 +47,7 @@ impl<P: Fn(f64) -> f64, F: Fn(f64) -> f64, G: Fn(f64) -> f64> Given<P, F, G> {
         let ends = [(0.0, interval.a()), (1.0, interval.b())];
         for (xi, x) in ends.into_iter().chain(inside) {
             let (cdf, pdf) = ((given.cdf)(x), (given.pdf)(x));
-            if !((cdf - xi).abs() <= TOLERANCE && pdf >= 0.0 && interval.contains(x)) {
+            if !((cdf - xi).abs() <= TOLERANCE && pdf >= 0.0 && interval.contains(&x)) {
                 return Err(Error::NotADensity { xi, x, cdf, pdf });
             }
         }
@@ -95,16 +95,16 @@ impl<P: Fn(f64) -> f64, F: Fn(f64) -> f64, G: Fn(f64) -> f64> Density for Given<
     }
 
     fn sample(&self, xi: &[f64]) -> f64 {
-        (self.inverse)(xi[0])
+        self.interval.nearest((self.inverse)(xi[0]))
     }
 
     fn pdf(&self, x: &f64) -> f64 {
-        if self.interval.contains(*x) { (self.pdf)(*x) } else { 0.0 }
+        if self.interval.contains(x) { (self.pdf)(*x) } else { 0.0 }
     }
 }
 
 impl<P: Fn(f64) -> f64, F: Fn(f64) -> f64, G: Fn(f64) -> f64> Line for Given<P, F, G> {
     fn cdf(&self, x: f64) -> f64 {
-        (self.cdf)(x.clamp(self.interval.a(), self.interval.b()))
+        (self.cdf)(self.interval.nearest(x))
     }
 }

@@ -1,6 +1,6 @@
 //! Directions of the hemisphere, measured by solid angle.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use libm::{acos, asin, cos};
 
@@ -68,6 +68,10 @@ impl Domain for Hemisphere {
 
     fn measure(&self) -> f64 {
         TAU
+    }
+
+    fn contains(&self, at: &Angles) -> bool {
+        (0.0..=FRAC_PI_2).contains(&at.theta)
     }
 
     /// Heights of points that lie evenly on a sphere are uniform (Archimedes): cosθ = 1 − ξ.

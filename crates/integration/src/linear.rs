@@ -1,7 +1,7 @@
 //! Densities that are straight lines.
 
 use crate::density::Density;
-use crate::domain::Interval;
+use crate::domain::{Domain, Interval};
 use crate::error::Error;
 use crate::line::Line;
 
@@ -45,12 +45,12 @@ impl Density for Linear {
         let ([p_a, p_b], xi) = (self.ends, xi[0]);
         let root = ((1.0 - xi) * (p_a * p_a) + xi * (p_b * p_b)).sqrt();
         let t = if xi == 0.0 { 0.0 } else { 2.0 * xi / (p_a + root) };
-        self.interval.a() + self.interval.length() * t
+        self.interval.at(&[t])
     }
 
     fn pdf(&self, x: &f64) -> f64 {
         let ([p_a, p_b], t) = (self.ends, self.interval.share(*x));
-        let inside = self.interval.contains(*x);
+        let inside = self.interval.contains(x);
         if inside { ((1.0 - t) * p_a + t * p_b) / self.interval.length() } else { 0.0 }
     }
 }

@@ -3,7 +3,7 @@
 use libm::pow;
 
 use crate::density::Density;
-use crate::domain::Interval;
+use crate::domain::{Domain, Interval};
 use crate::error::Error;
 use crate::line::Line;
 
@@ -55,11 +55,11 @@ impl Density for Power {
     /// x = (aⁿ⁺¹ + ξ (bⁿ⁺¹ − aⁿ⁺¹))^(1/(n + 1)).
     fn sample(&self, xi: &[f64]) -> f64 {
         let [a, b] = self.ends;
-        pow(a + xi[0] * (b - a), 1.0 / (self.n + 1.0))
+        self.interval.nearest(pow(a + xi[0] * (b - a), 1.0 / (self.n + 1.0)))
     }
 
     fn pdf(&self, x: &f64) -> f64 {
-        if self.interval.contains(*x) { self.k() * pow(*x, self.n) } else { 0.0 }
+        if self.interval.contains(x) { self.k() * pow(*x, self.n) } else { 0.0 }
     }
 }
 
@@ -67,7 +67,6 @@ impl Line for Power {
     /// F(x) = (xⁿ⁺¹ − aⁿ⁺¹)/(bⁿ⁺¹ − aⁿ⁺¹).
     fn cdf(&self, x: f64) -> f64 {
         let [a, b] = self.ends;
-        let x = x.clamp(self.interval.a(), self.interval.b());
-        (pow(x, self.n + 1.0) - a) / (b - a)
+        (pow(self.interval.nearest(x), self.n + 1.0) - a) / (b - a)
     }
 }

@@ -21,6 +21,10 @@ impl<A: Domain, B: Domain> Domain for (A, B) {
         self.0.measure() * self.1.measure()
     }
 
+    fn contains(&self, (x, y): &Self::Point) -> bool {
+        self.0.contains(x) && self.1.contains(y)
+    }
+
     fn at(&self, mut xi: &[f64]) -> Self::Point {
         (self.0.at(take(&mut xi, self.0.dimension())), self.1.at(xi))
     }
@@ -37,6 +41,10 @@ impl<D: Domain, const K: usize> Domain for [D; K] {
         self.iter().map(D::measure).product()
     }
 
+    fn contains(&self, x: &Self::Point) -> bool {
+        self.iter().zip(x).all(|(side, x)| side.contains(x))
+    }
+
     fn at(&self, mut xi: &[f64]) -> Self::Point {
         self.each_ref().map(|side| side.at(take(&mut xi, side.dimension())))
     }
@@ -51,6 +59,10 @@ impl<D: Domain> Domain for Vec<D> {
 
     fn measure(&self) -> f64 {
         self.iter().map(D::measure).product()
+    }
+
+    fn contains(&self, x: &Self::Point) -> bool {
+        self.iter().zip(x).all(|(side, x)| side.contains(x))
     }
 
     fn at(&self, mut xi: &[f64]) -> Self::Point {

@@ -30,17 +30,20 @@ pub trait Variable {
     fn at(&self, xi: &[f64]) -> f64;
 
     /// Expected value ∫ w(ξ) dξ and variance ∫ (w(ξ) − E[w])² dξ without chance, by adaptive cubature over the unit cube.
-    /// `tolerance` is the error that may be left: of the expected value relative to E|w|, of the variance relative to itself
-    /// or, where it is smaller, to 10⁻¹² of (E|w|)².
+    /// `tolerance` is the error that may be left: of the expected value relative to |w|, of the variance relative to itself or to
+    /// 10⁻¹² |w|², whichever is larger. A variable that does not vary has the variance 0.
     ///
     /// # Errors
     /// [`Error::NotConverged`], where the variable varies too much, has edges in several dimensions, or no finite variance.
     fn exact(&self, tolerance: f64) -> Result<Exact, Error> {
-        let mean = integrate(self.dimension(), |xi| self.at(xi), tolerance, 0.0)?;
-        let deviation = |xi: &[f64]| self.at(xi) - mean.value;
-        let floor = 1e-12 * mean.absolute * mean.absolute;
-        let variance = integrate(self.dimension(), |xi| deviation(xi) * deviation(xi), tolerance, tolerance * floor)?;
-        Ok(Exact { mean: mean.value, variance: variance.value, mean_error: mean.error, variance_error: variance.error })
+        let (d, middle) = (self.dimension(), self.at(&vec![0.5; self.dimension()]));
+        // Deviations from one of its values lose nothing to rounding where all are alike.
+        let centre = if middle.is_finite() { middle } else { 0.0 };
+        let offset = integrate(d, |xi| self.at(xi) - centre, tolerance, tolerance * centre.abs())?;
+        let (mean, size) = (centre + offset.value, centre.abs() + offset.absolute);
+        let squared = |xi: &[f64]| (self.at(xi) - mean) * (self.at(xi) - mean);
+        let spread = integrate(d, squared, tolerance, tolerance * 1e-12 * size * size)?;
+        Ok(Exact { mean, variance: spread.value, mean_error: offset.error, variance_error: spread.error })
     }
 
     /// Its values for the N samples of a stream, in order.

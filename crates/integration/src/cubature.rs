@@ -25,15 +25,18 @@ const NARROWEST: f64 = 1e-90;
 ///
 /// Cells whose error is more than their share are halved, across the axis along which the lower rule fails most, until the
 /// errors sum to what is allowed. An edge of g along an axis is closed in on by halving; oblique edges in two and more dimensions cost
-/// much. What happens between the nodes of the first cells, two along each axis, is not seen.
+/// much. What happens between the nodes of the first cells, two along each of the first axes, is not seen.
 ///
 /// # Errors
 /// [`Error::NotConverged`] after some eight million evaluations, where cells would have to be narrower than rounding allows, as at
-/// a pole that cannot be integrated, and where g is not finite.
+/// a pole that cannot be integrated, and where g is not finite; [`Error::TooManyDimensions`] from ten on.
 pub fn integrate(dimension: usize, g: impl Fn(&[f64]) -> f64, relative: f64, absolute: f64) -> Result<Integral, Error> {
     let rules = Rules::new(dimension);
+    if rules.cost() > EVALUATIONS {
+        return Err(Error::TooManyDimensions { dimension, evaluations: rules.cost() });
+    }
     let mut patches = vec![vec![0.0..1.0; dimension]];
-    for axis in 0..dimension.min(6) {
+    for axis in (0..dimension).take_while(|axis| rules.cost() << axis < EVALUATIONS / 8) {
         patches = patches.iter().flat_map(|patch| halves(patch, axis)).collect();
     }
     let mut evaluations = patches.len() * rules.cost();

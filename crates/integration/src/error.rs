@@ -84,6 +84,16 @@ pub enum Error {
         /// How often the function was evaluated.
         evaluations: usize,
     },
+    /// A cube of too many axes for cubature.
+    #[error(
+        "cubature over {dimension} axes takes {evaluations} evaluations for a first cell alone: find mean and variance as sums or products of those of fewer axes"
+    )]
+    TooManyDimensions {
+        /// Axes.
+        dimension: usize,
+        /// How often the function would have to be evaluated.
+        evaluations: usize,
+    },
     /// A budget that is too small for a product rule.
     #[error("{budget} evaluations are no two along each of {dimension} axes: allow at least 2^{dimension}")]
     SmallBudget {

@@ -34,7 +34,8 @@ pub trait Variable {
     /// 10⁻¹² |w|², whichever is larger. A variable that does not vary has the variance 0.
     ///
     /// # Errors
-    /// [`Error::NotConverged`], where the variable varies too much, has edges in several dimensions, or no finite variance.
+    /// [`Error::NotConverged`] where the variable varies too much, has edges in several dimensions, or no finite variance;
+    /// [`Error::TooManyDimensions`] from ten on.
     fn exact(&self, tolerance: f64) -> Result<Exact, Error> {
         let (d, middle) = (self.dimension(), self.at(&vec![0.5; self.dimension()]));
         // Deviations from one of its values lose nothing to rounding where all are alike.
@@ -53,9 +54,8 @@ pub trait Variable {
     fn samples(&self, stream: &Stream) -> Result<Vec<f64>, Error> {
         let mut values = Vec::with_capacity(stream.n as usize);
         for_each(stream, self.dimension(), |index, xi, weight| {
-            let value = weight * self.at(xi);
-            values.push(value);
-            if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { index, value, xi: xi.to_vec() }) }
+            values.push(finite(index, weight * self.at(xi), xi)?);
+            Ok(())
         })?;
         Ok(values)
     }
@@ -65,7 +65,16 @@ pub trait Variable {
     /// # Errors
     /// As [`samples`](Self::samples).
     fn average(&self, stream: &Stream) -> Result<Moments, Error> {
-        Ok(Moments::of(&self.samples(stream)?))
+        let (mut moments, mut part) = (Moments::default(), Vec::with_capacity(PART));
+        for_each(stream, self.dimension(), |index, xi, weight| {
+            part.push(finite(index, weight * self.at(xi), xi)?);
+            if part.len() == PART {
+                moments = moments + Moments::of(&part);
+                part.clear();
+            }
+            Ok(())
+        })?;
+        Ok(moments + Moments::of(&part))
     }
 
     /// R independent means of N samples, N rounded up to what the sampler can spread.
@@ -85,6 +94,13 @@ pub trait Variable {
     fn by_rule(&self, rule: Rule, m: u32) -> f64 {
         rule.integrate(self.dimension(), m, |xi| self.at(xi))
     }
+}
+
+/// Samples whose moments are found together.
+const PART: usize = 1024;
+
+fn finite(index: u32, value: f64, xi: &[f64]) -> Result<f64, Error> {
+    if value.is_finite() { Ok(value) } else { Err(Error::NotFinite { index, value, xi: xi.to_vec() }) }
 }
 
 impl<V: Variable + ?Sized> Variable for &V {

@@ -52,6 +52,13 @@ fn an_infinite_variance_is_not_given_a_number() -> Outcome {
 }
 
 #[test]
+fn too_many_dimensions_are_refused_at_once() -> Outcome {
+    close(integrate(8, |_| 1.0, 1e-9, 0.0)?.value, 1.0, 1e-10);
+    assert!(matches!(integrate(10, |_| 1.0, 1e-9, 0.0), Err(Error::TooManyDimensions { dimension: 10, .. })));
+    Ok(())
+}
+
+#[test]
 fn what_is_not_finite_is_not_given_a_number() {
     let estimator = Estimator::new(|x: f64| (x - 2.0).sqrt(), Uniform(Interval::UNIT));
     assert!(matches!(estimator.exact(1e-9), Err(Error::NotConverged { .. })));

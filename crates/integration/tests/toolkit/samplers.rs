@@ -79,6 +79,22 @@ fn equal_seeds_give_equal_numbers() -> Outcome {
     Ok(())
 }
 
+/// The mean of many samples is that of the samples one by one, also where they do not fill the last part. Seed 34.
+#[test]
+fn averages_are_means_of_samples() -> Outcome {
+    let estimator = Estimator::new(|x: f64| x, Uniform(Interval::UNIT));
+    for n in [1, 1023, 1024, 2500] {
+        let stream = Source::independent(34).stream(n, 0);
+        let (samples, average) = (estimator.samples(&stream)?, estimator.secondary(&stream)?);
+        let mean = samples.iter().sum::<f64>() / f64::from(n);
+        let squares: f64 = samples.iter().map(|sample| (sample - mean) * (sample - mean)).sum();
+        assert_eq!(average.n, f64::from(n));
+        close(average.mean, mean, 1e-14);
+        close(average.m2, squares, 1e-11);
+    }
+    Ok(())
+}
+
 /// σ²/N and σ/√N.
 #[test]
 fn the_mean_of_n() {

@@ -23,6 +23,57 @@ pub trait Density {
     fn pdf(&self, x: &Point<Self>) -> f64;
 }
 
+/// A density by reference.
+impl<P: Density + ?Sized> Density for &P {
+    type Domain = P::Domain;
+
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+
+    fn sample(&self, xi: &[f64]) -> Point<P> {
+        (**self).sample(xi)
+    }
+
+    fn pdf(&self, x: &Point<P>) -> f64 {
+        (**self).pdf(x)
+    }
+}
+
+/// A density that is chosen at run time.
+///
+/// ```
+/// use twoforms_integration::{Estimator, Interval, Line, Linear, Power, Uniform, Variable};
+///
+/// let interval = Interval::new(0.0, 4.0)?;
+/// let densities: [Box<dyn Line<Domain = Interval>>; 3] = [
+///     Box::new(Power::new(interval, 1.0)?),
+///     Box::new(Uniform(interval)),
+///     Box::new(Linear::new(interval, [2.0, 6.0])?),
+/// ];
+/// let mut variances = Vec::new();
+/// for p in densities {
+///     variances.push(format!("{:.1}", Estimator::new(|x| x, p).exact(1e-10)?.variance));
+/// }
+/// assert_eq!(variances, ["0.0", "21.3", "6.3"]);
+/// # Ok::<(), twoforms_integration::Error>(())
+/// ```
+impl<P: Density + ?Sized> Density for Box<P> {
+    type Domain = P::Domain;
+
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+
+    fn sample(&self, xi: &[f64]) -> Point<P> {
+        (**self).sample(xi)
+    }
+
+    fn pdf(&self, x: &Point<P>) -> f64 {
+        (**self).pdf(x)
+    }
+}
+
 /// The same density everywhere in the domain, p = 1/μ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform<D>(pub D);

@@ -46,17 +46,17 @@ impl Discrete {
         Self::new(values.into_iter().map(|value| (value, 1.0)))
     }
 
-    /// E[g(x)] = Σ p_k g(x_k).
+    /// `E[g(x)] = Σ p_k g(x_k)`.
     pub fn expected(&self, g: impl Fn(f64) -> f64) -> f64 {
         self.values.iter().zip(&self.weights).map(|(&x, w)| w * g(x)).sum::<f64>() / self.shares.total()
     }
 
-    /// E[x].
+    /// The expected value `E[x]`.
     pub fn mean(&self) -> f64 {
         self.expected(|x| x)
     }
 
-    /// σ² = E[(x − E[x])²].
+    /// `σ² = E[(x − E[x])²]`.
     pub fn variance(&self) -> f64 {
         let mean = self.mean();
         self.expected(|x| (x - mean) * (x - mean))

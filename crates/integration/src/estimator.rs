@@ -67,7 +67,7 @@ impl<F: Fn(Point<P>) -> f64, P: Density> Variable for Estimator<F, P> {
     }
 }
 
-/// The random variable g(x), x a point with density p. Its expected value is E[g] = ∫ g p dμ.
+/// The random variable g(x), x a point with density p. Its expected value is `E[g] = ∫ g p dμ`.
 ///
 /// ```
 /// use twoforms_integration::{Interval, Transformed, Uniform, Variable};

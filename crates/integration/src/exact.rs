@@ -20,9 +20,9 @@ use std::ops::{Add, Mul};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exact {
-    /// E[w].
+    /// The expected value `E[w]`.
     pub mean: f64,
-    /// σ² = E[(w − E[w])²].
+    /// `σ² = E[(w − E[w])²]`.
     pub variance: f64,
     /// Estimate of the absolute error of the mean.
     pub mean_error: f64,
@@ -48,7 +48,7 @@ impl Exact {
     }
 }
 
-/// E[v + w] = E[v] + E[w], and for independent variables σ²(v + w) = σ²(v) + σ²(w).
+/// `E[v + w] = E[v] + E[w]`, and for independent variables σ²(v + w) = σ²(v) + σ²(w).
 impl Add for Exact {
     type Output = Self;
 
@@ -62,7 +62,7 @@ impl Add for Exact {
     }
 }
 
-/// For independent variables E[v w] = E[v] E[w] and σ²(v w) = σ²(v) σ²(w) + σ²(v) E[w]² + E[v]² σ²(w).
+/// For independent variables `E[v w] = E[v] E[w]` and `σ²(v w) = σ²(v) σ²(w) + σ²(v) E[w]² + E[v]² σ²(w)`.
 impl Mul for Exact {
     type Output = Self;
 

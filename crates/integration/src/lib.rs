@@ -70,5 +70,7 @@ pub use replicates::Replicates;
 pub use rule::Rule;
 pub use series::{exponent, running_means};
 pub use source::Source;
+pub use twoforms_estimator::moments::Moments;
+pub use twoforms_estimator::sampler::{Sampler, Stream};
 pub use variable::Variable;
 pub use versus::{Versus, crossing};

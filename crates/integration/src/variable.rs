@@ -29,7 +29,7 @@ pub trait Variable {
     /// Its value for these ξ, as many as [`dimension`](Self::dimension) says.
     fn at(&self, xi: &[f64]) -> f64;
 
-    /// Expected value ∫ w(ξ) dξ and variance ∫ (w(ξ) − E[w])² dξ without chance, by adaptive cubature over the unit cube.
+    /// Expected value ∫ w(ξ) dξ and variance `∫ (w(ξ) − E[w])² dξ` without chance, by adaptive cubature over the unit cube.
     /// `tolerance` is the error that may be left: of the expected value relative to |w|, of the variance relative to itself or to
     /// 10⁻¹² |w|², whichever is larger. A variable that does not vary has the variance 0.
     ///

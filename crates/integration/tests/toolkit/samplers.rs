@@ -1,7 +1,6 @@
 //! Every sampler serves every variable.
 
-use twoforms_estimator::sampler::Sampler;
-use twoforms_integration::{Error, Estimator, Exact, Interval, Linear, Rule, Source, Uniform, Variable};
+use twoforms_integration::{Error, Estimator, Exact, Interval, Linear, Rule, Sampler, Source, Uniform, Variable};
 
 use crate::support::{Outcome, SIX, close, unbiased};
 

@@ -76,6 +76,20 @@ fn drawn_points_lie_as_p_says() -> Outcome {
     Ok(())
 }
 
+/// Tables are followed in shape, and not only made densities: areas 1 and 3 under the lines, 2 and 2 under the steps.
+#[test]
+fn tables_are_proportional_to_what_they_were_given() -> Outcome {
+    let lines = Piecewise::lines(&[0.0, 1.0, 3.0], &[0.0, 2.0, 1.0])?;
+    for (x, value) in [(0.25, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 1.5), (3.0, 1.0), (3.5, 0.0), (-1.0, 0.0)] {
+        close(lines.pdf(&x), value / 4.0, 1e-15);
+    }
+    let steps = Piecewise::steps(&[0.0, 1.0, 5.0], &[2.0, 0.5])?;
+    for (x, cdf) in [(-1.0, 0.0), (0.5, 0.25), (1.0, 0.5), (3.0, 0.75), (9.0, 1.0)] {
+        close(steps.cdf(x), cdf, 1e-15);
+    }
+    Ok(())
+}
+
 /// E[g] over drawn directions is ∫ g p dω over all directions.
 #[test]
 fn directions_lie_as_p_says() -> Outcome {

@@ -132,7 +132,7 @@ fn running_means_come_to_the_expected_value() -> Outcome {
     Ok(())
 }
 
-/// ∫₀² ∫₀¹ x y² dx dy = 4/3, σ² = 4 · 32/15 · … : E[w²] = 4 · (1/3)(32/5)/2 = 64/15, and 64/15 − 16/9 = 112/45. Seed 6.
+/// ∫₀² ∫₀¹ x y² dx dy = 4/3, and with p = 1/2 σ² = 2 ∫∫ x² y⁴ − 16/9 = 64/15 − 16/9 = 112/45. Seed 6.
 #[test]
 fn two_dimensions() -> Outcome {
     let rectangle = Uniform([Interval::UNIT, Interval::new(0.0, 2.0)?]);

@@ -167,7 +167,7 @@ impl Domain<SolidAngle> for LitDirections<'_> {
     }
 
     fn patches(&self) -> Vec<Patch<Aim<f32>>> {
-        let mut patches: Vec<Patch<Aim<f32>>> = self.0.patches();
+        let mut patches: Vec<Patch<Aim<f32>>> = Domain::<SolidAngle>::patches(&self.0);
         patches.retain(|patch| self.first(&patch.at).index() == patch.at.target);
         patches.into_iter().map(|patch| Patch { at: Aim::anywhere(patch.at.psi), ..patch }).collect()
     }

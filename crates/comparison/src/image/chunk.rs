@@ -35,7 +35,7 @@ pub(super) struct Chunk {
     /// Mean of the light samples, RGB.
     pub(super) value: [[f64; SIZE]; 3],
     /// Rays asked for by light samples.
-    rays: [u32; SIZE],
+    pub(super) rays: [u32; SIZE],
 }
 
 /// Consecutive camera samples of one pixel.

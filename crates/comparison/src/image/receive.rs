@@ -6,7 +6,7 @@ use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::numbers::BATCH;
 use twoforms_geometry::lanes::Kernel;
-use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::real::Real;
 use twoforms_geometry::vector::Vector;
 
 use super::chunk::{Chunk, SIZE};
@@ -21,30 +21,54 @@ pub(super) struct Receive<'e> {
     pub(super) along: [[f32; 3]; 2],
 }
 
-/// Light samples evaluated together: runs of them, each for one camera sample.
+/// Light samples evaluated together.
 struct Together {
     batch: Batch,
-    /// Camera samples with their light samples' places in the batch.
-    runs: Vec<(usize, Range<usize>)>,
-    /// Sums over the light samples of each camera sample, RGB: worths, and what they add to a divisor.
-    sums: [[[f64; SIZE]; 3]; 2],
+    blocks: Vec<Block>,
+    /// Sums over the light samples of each camera sample, RGB, of an estimate that is a quotient: worths, and divisors.
+    quotients: Option<Box<[[[f64; SIZE]; 3]; 2]>>,
+}
+
+/// Consecutive light samples of consecutive camera samples of one pixel.
+struct Block {
+    /// The first camera sample.
+    first: usize,
+    /// Light samples before these, from the first of that camera sample on.
+    done: usize,
+    /// Where they are in the batch.
+    places: Range<usize>,
+}
+
+impl Block {
+    /// The camera samples, with the places of their light samples.
+    fn camera_samples(&self, each: usize) -> impl Iterator<Item = (usize, Range<usize>)> + use<> {
+        let Self { first, done, places: Range { start, end } } = *self;
+        let last = done + end - start;
+        (done / each..last.div_ceil(each)).map(move |index| {
+            let from = (index * each).max(done);
+            let to = ((index + 1) * each).min(last);
+            (first + index, start + from - done..start + to - done)
+        })
+    }
 }
 
 impl Receive<'_> {
     /// Samples the lights for all of the chunk that meets the pane.
     pub(super) fn all(&self, chunk: &mut Chunk) {
         let start = self.light.instructions.run(LookFrom { chunk, along: self.along });
-        let mut together = Together::new(self.estimator.pairs());
+        let mut together = Together::new(self.estimator);
         for piece in 0..chunk.pieces.len() {
             for met in self.met(chunk, chunk.pieces[piece].places()) {
                 self.run(chunk, &start, met, &mut together);
             }
         }
         self.evaluate(chunk, &mut together);
-        for k in chunk.that_meet(self.pane).collect::<Vec<_>>() {
-            let of = |sums: &[[f64; SIZE]; 3]| [sums[0][k], sums[1][k], sums[2][k]];
-            let [sum, divisor] = together.sums.each_ref().map(of);
-            chunk.add(k, self.estimator.estimate(sum, divisor, self.light.each), 0);
+        if let Some(sums) = together.quotients {
+            for k in chunk.that_meet(self.pane).collect::<Vec<_>>() {
+                let of = |sums: &[[f64; SIZE]; 3]| [sums[0][k], sums[1][k], sums[2][k]];
+                let [sum, divisor] = sums.each_ref().map(of);
+                chunk.add(k, self.estimator.estimate(sum, divisor, self.light.each), 0);
+            }
         }
     }
 
@@ -71,58 +95,63 @@ impl Receive<'_> {
             }
             let offset = together.batch.length;
             let length = (BATCH - offset).min(all - done);
-            let instructions = self.light.instructions;
-            stream.fill_at(instructions, first + done as u32, offset..offset + length, &mut together.batch.numbers);
-            together.push(met.start, done, each, length, start);
+            let block = Block { first: met.start, done, places: offset..offset + length };
+            let places = block.places.clone();
+            stream.fill_at(self.light.instructions, first + done as u32, places, &mut together.batch.numbers);
+            together.push(block, each, start);
             done += length;
         }
     }
 
     /// Evaluates what has been put together, and adds it up.
     fn evaluate(&self, chunk: &mut Chunk, together: &mut Together) {
-        let Together { batch, runs, sums: [worths, divisors] } = together;
-        let used = batch.length;
-        batch.wanted[..used].fill(1);
-        batch.wanted[used..].fill(0);
+        let (each, share) = (self.light.each as usize, 1.0 / f64::from(self.light.each));
+        let Together { batch, blocks, quotients } = together;
+        batch.wanted[..batch.length].fill(1);
+        batch.wanted[batch.length..].fill(0);
         self.estimator.evaluate(self.light.instructions, batch);
-        for (k, places) in runs.drain(..) {
-            add(worths, k, &batch.worth, places.clone());
-            if self.estimator.is_quotient() {
-                add(divisors, k, &batch.divisor, places.clone());
+        for block in blocks.drain(..) {
+            for (k, places) in block.camera_samples(each) {
+                chunk.rays[k] += batch.rays[places.clone()].iter().sum::<u32>();
+                for c in 0..3 {
+                    let sum = total(&batch.worth[c][places.clone()]);
+                    match quotients {
+                        None => chunk.value[c][k] += sum * share,
+                        Some(sums) => {
+                            sums[0][c][k] += sum;
+                            sums[1][c][k] += total(&batch.divisor[c][places.clone()]);
+                        }
+                    }
+                }
             }
-            chunk.add(k, [0.0; 3], batch.rays[places].iter().sum());
         }
         batch.length = 0;
     }
 }
 
 impl Together {
-    fn new(pairs: usize) -> Box<Self> {
-        let mut batch = Batch::new(pairs);
+    fn new(estimator: &dyn Estimator) -> Self {
+        let mut batch = Batch::new(estimator.pairs());
         batch.from_points = true;
-        Box::new(Self { batch, runs: Vec::new(), sums: [[[0.0; SIZE]; 3]; 2] })
+        let quotients = estimator.is_quotient().then(|| Box::new([[[0.0; SIZE]; 3]; 2]));
+        Self { batch, blocks: Vec::new(), quotients }
     }
 
-    /// Puts in `length` light samples from the `done`-th on of consecutive camera samples with so many each.
-    fn push(&mut self, first: usize, done: usize, each: usize, length: usize, start: &[[f32; SIZE]; 2]) {
-        let end = done + length;
-        for index in done / each..end.div_ceil(each) {
-            let from = self.batch.length + (index * each).max(done) - done;
-            let to = self.batch.length + ((index + 1) * each).min(end) - done;
+    /// Puts in a block of camera samples with so many light samples each, which look from `start`.
+    fn push(&mut self, block: Block, each: usize, start: &[[f32; SIZE]; 2]) {
+        for (k, places) in block.camera_samples(each) {
             for c in 0..2 {
-                self.batch.start[c][from..to].fill(start[c][first + index]);
+                self.batch.start[c][places.clone()].fill(start[c][k]);
             }
-            self.runs.push((first + index, from..to));
         }
-        self.batch.length += length;
+        self.batch.length = block.places.end;
+        self.blocks.push(block);
     }
 }
 
-/// Adds what some places of a batch hold to the sum of a camera sample.
-fn add(sums: &mut [[f64; SIZE]; 3], k: usize, values: &[[f32; BATCH]; 3], places: Range<usize>) {
-    for c in 0..3 {
-        sums[c][k] += values[c][places.clone()].iter().map(|&value| f64::from(value)).sum::<f64>();
-    }
+#[inline(always)]
+fn total(values: &[f32]) -> f64 {
+    values.iter().map(|&value| f64::from(value)).sum()
 }
 
 /// Where the camera samples of a chunk would meet a pane, in the frame of the view from it; its third coordinate is zero.

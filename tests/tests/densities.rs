@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use twoforms_estimator::density::Density;
 use twoforms_estimator::measure::{Measure, Sample};
 use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::selection::Selection;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::Technique;
 use twoforms_geometry::view::{Effort, View};
@@ -18,7 +19,8 @@ const LEVEL: f64 = 1e-3;
 /// Samples of each χ² test.
 const N: u32 = 50_000;
 
-/// Visits the densities of all strategies with all samplers at all receivers, each with what `visitor` makes of them.
+/// Visits the densities of all techniques at all receivers, each with what `visitor` makes of them; with all samplers where
+/// a scene's first receiver is and no light is picked.
 fn everywhere<V, T>(visitor: impl Fn(&Case, Strategy, Sampler) -> V + Sync) -> Vec<(String, T)>
 where
     V: Visitor<Output = T>,
@@ -30,7 +32,9 @@ where
         let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
         let mut found = Vec::new();
         for technique in Technique::all() {
-            for &sampler in Sampler::ALL {
+            let all = case.place.name == case.stage.cases()[0].place.name && technique.selection == Selection::Together;
+            let random = Sampler::ALL.iter().copied().filter(|sampler| sampler.is_random());
+            for sampler in random.filter(|sampler| all || *sampler == Sampler::Independent) {
                 let name = format!("{case} {technique} {sampler}");
                 found.push((name, visit(technique, &world.lights, &view, visitor(case, technique.into(), sampler))));
             }

@@ -30,7 +30,7 @@ fn on_threads<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> T {
 fn results_sha256(stage: &Stage, seed: u64, threads: usize) -> String {
     let experiment = Experiment {
         strategies: Strategy::all(),
-        samplers: Sampler::ALL.to_vec(),
+        samplers: vec![Sampler::Independent, Sampler::Sobol],
         samples: vec![1, 5, 1000],
         replicates: 70,
         seed,
@@ -86,7 +86,7 @@ fn bits_do_not_depend_on_the_instructions() {
             let prepared = strategy.prepare(&world.lights);
             for n in [1, 17, 1000] {
                 let draws = Draws { key: Key::new([u64::from(n)]), stream: [n, 3] };
-                for &sampler in Sampler::ALL {
+                for &sampler in Sampler::ALL.iter().filter(|sampler| sampler.is_random()) {
                     let stream = Stream { sampler, draws, n: sampler.rounded(n) };
                     let estimates = by_all(&*prepared.at(&view, &query, &known), stream);
                     let same = estimates.windows(2).all(|pair| pair[0] == pair[1]);

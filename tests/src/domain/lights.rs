@@ -167,11 +167,7 @@ impl Domain<SolidAngle> for LitDirections<'_> {
     }
 
     fn patches(&self) -> Vec<Patch<Aim<f32>>> {
-<<<<<<< HEAD
         let mut patches = Domain::<SolidAngle>::patches(&self.0);
-=======
-        let mut patches: Vec<Patch<Aim<f32>>> = Domain::<SolidAngle>::patches(&self.0);
->>>>>>> densities
         patches.retain(|patch| self.first(&patch.at).index() == patch.at.target);
         patches.into_iter().map(|patch| Patch { at: Aim::anywhere(patch.at.psi), ..patch }).collect()
     }

@@ -60,19 +60,21 @@ fn by_channel(case: &Case, row: &Row) -> Vec<Outcome> {
     let (known, found) = (case.known.irradiance, row.mean);
     let Some(cited) = case.variance(strategy).filter(|_| independent) else {
         let of_mean = row.variance_of_mean.expect("several replicates");
-        return vec![outcome(&format!("{name} luminance"), row, [found.luminance, luminance(known)], of_mean)];
+        let means = [found.luminance, luminance(known)];
+        let cited = case.variance(strategy).map(|variance| luminance(variance) / row.samples as f64);
+        return vec![outcome(&format!("{name} luminance"), row, means, of_mean, cited.unwrap_or(of_mean).max(of_mean))];
     };
     let of_channel = |c: usize| {
         let of_mean = cited[c] / row.samples as f64;
-        outcome(&format!("{name} channel {c}"), row, [found.rgb[c], known[c]], of_mean)
+        outcome(&format!("{name} channel {c}"), row, [found.rgb[c], known[c]], of_mean, of_mean)
     };
     (0..3).map(of_channel).collect()
 }
 
-/// The test of a row's mean, unless fewer than [`LEAST_HITS`] samples are expected not to be zero, which by Cauchy and
+/// The test of a row's mean; `if_independent` is its variance were the samples independent, as far as that is known. Skipped where fewer than [`LEAST_HITS`] samples are expected not to be zero, which by Cauchy and
 /// Schwarz has at least the probability E[w]²/E[w²]. With E = 0 every sample must be zero.
-fn outcome(name: &str, row: &Row, [found, expected]: [f64; 2], variance_of_mean: f64) -> Outcome {
-    let second = variance_of_mean * row.samples as f64 + expected * expected;
+fn outcome(name: &str, row: &Row, [found, expected]: [f64; 2], variance_of_mean: f64, if_independent: f64) -> Outcome {
+    let second = if_independent * row.samples as f64 + expected * expected;
     let hits = (row.samples * row.replicates) as f64 * expected * expected / second;
     if expected > 0.0 && hits < LEAST_HITS {
         return Outcome::Skipped { why: format!("{name}: {hits:.2} samples are expected not to be zero") };

@@ -85,7 +85,7 @@ fn through_both(case: &Case, selection: Selection) -> Comparison {
     Comparison::of((0..N).filter_map(|index| {
         let (Sample { at: y, pdf: p }, some) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
         let xy = Segment::to(&y);
-        let aim = Aim { psi: xy.psi, target: y.target };
+        let aim = Aim { psi: xy.psi, target: y.target, alone: true };
         let Rgb(area) = Area::integrand(&view.from_x(), &query, &y) / p;
         let Rgb(hemisphere) = Hemisphere::integrand(&view.from_x(), &query, &aim) / p.per_solid_angle(&xy);
         (some && xy.facing()).then_some([area, hemisphere])

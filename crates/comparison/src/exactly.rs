@@ -9,6 +9,8 @@ use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::strategy::{Known, Strategy};
 use twoforms_exact::{Error, Sight, Value, receiver};
 
+pub use twoforms_exact::with_formula;
+
 use crate::place::Place;
 use crate::result::Why;
 use crate::swept::Swept;

@@ -77,6 +77,8 @@ pub fn default_strategies() -> Vec<Strategy> {
         Strategy::from(Kind::AreaUniform),
         Strategy::from(Kind::HemisphereCosine),
         Strategy::from(Kind::HemisphereUniform),
+        Strategy::from(Kind::AreaSolidAngle),
+        Strategy::from(Kind::AreaProjectedSolidAngle),
         Strategy::Mis(Weighting::Balance, Team::default()),
     ]
 }

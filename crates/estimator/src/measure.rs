@@ -66,7 +66,7 @@ impl Measure for SolidAngle {
     /// Ψ from x to y.
     #[inline(always)]
     fn point<R: Real>(y: &SurfacePoint<R>, xy: &Segment<R>) -> Aim<R> {
-        Aim { psi: xy.psi, target: y.target }
+        Aim { psi: xy.psi, target: y.target, alone: true }
     }
 
     #[inline(always)]
@@ -100,8 +100,11 @@ impl Measure for SurfaceArea {
 pub struct Aim<R: Real> {
     /// Ψ.
     pub psi: Direction<R>,
-    /// The only target that counts, or [`ANYWHERE`].
+    /// The target that it is aimed at, or [`ANYWHERE`].
     pub target: R::Word,
+    /// Whether that target is the only one that counts. Where it is not, any light does; but of a direction that meets none,
+    /// being rounded beside a small light, the target still counts where nothing stands before it.
+    pub alone: bool,
 }
 
 /// Aimed at no target in particular: whatever light Ψ meets counts.
@@ -111,14 +114,24 @@ impl<R: Real> Aim<R> {
     /// A direction for which any light counts.
     #[inline(always)]
     pub fn anywhere(psi: Direction<R>) -> Self {
-        Self { psi, target: R::Word::splat(ANYWHERE) }
+        Self { psi, target: R::Word::splat(ANYWHERE), alone: false }
     }
 
     /// y = vp(x, Ψ); of a direction aimed at a target, only where y lies on it. A density aims all its samples or none.
     #[inline(always)]
     pub fn vp(&self, from: &Vantage<R>) -> Masked<SurfacePoint<R>, R> {
         let aimed = !R::same(self.target, R::Word::splat(ANYWHERE));
-        if aimed.any() { from.vp_on(self.target, self.psi) } else { from.vp(self.psi) }
+        if self.alone && aimed.any() {
+            return from.vp_on(self.target, self.psi);
+        }
+        let (y, found) = from.vp(self.psi).parts();
+        let missed = from.wanted() & aimed & !found;
+        if !missed.any() {
+            return Masked::new(y, found);
+        }
+        let target = R::select_word(aimed, self.target, R::Word::splat(0));
+        let (beside, seen) = from.only(missed).vp_on(target, self.psi).parts();
+        Masked::new(SurfacePoint::select(found, &y, &beside), found | (missed & seen))
     }
 }
 

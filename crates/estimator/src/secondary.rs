@@ -40,6 +40,9 @@ pub fn secondary_by(
         batch.wanted[batch.length..].fill(0);
         stream.fill(instructions, start, batch.length, &mut batch.numbers);
         estimator.evaluate(instructions, &mut batch);
+        for channel in &mut batch.worth {
+            channel[batch.length..].fill(0.0);
+        }
         instructions.run(Add { batch: &batch, estimate: &mut estimate }).map_err(|k| not_finite(&batch, start, k))?;
         if estimator.is_quotient() {
             batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..batch.length]));

@@ -20,6 +20,27 @@ const TOO_ROUGH: f64 = 1e-9;
 /// The channel of the luminance, after red, green and blue.
 const LUMINANCE: usize = 3;
 
+/// Whether the variance of a strategy is known here: by a closed form or by cubature.
+pub fn has_formula(strategy: Strategy) -> bool {
+    match strategy {
+        Strategy::Single(technique) => technique.kind != Kind::HemisphereTowardLightsMarginal,
+        Strategy::Mixture(share, [one, other]) => match share {
+            1.0 => has_formula(one.into()),
+            0.0 => has_formula(other.into()),
+            _ => [one, other] == Strategy::PAIR,
+        },
+        Strategy::Mis(weighting, team) => {
+            team == Team::default() && !matches!(weighting, Weighting::Cutoff | Weighting::Maximum)
+        }
+        Strategy::Resampled(_) | Strategy::Ratio | Strategy::ControlVariate => false,
+    }
+}
+
+/// All strategies whose variance is known here; combinations by some of their many names.
+pub fn with_formula() -> Vec<Strategy> {
+    Strategy::all().into_iter().filter(|&strategy| has_formula(strategy)).collect()
+}
+
 impl Sight {
     /// V = E\[w²\] − E² of one sample of a strategy (of one pair for `mis`).
     ///

@@ -60,7 +60,7 @@ impl Chart {
 
     /// The direction to a local position, aimed at this target.
     pub fn aim(&self, position: DVec3) -> Aim<f32> {
-        Aim { psi: Direction::of(Vector::from(round(position.normalize())), 1.0), target: self.index }
+        Aim { psi: Direction::of(Vector::from(round(position.normalize())), 1.0), target: self.index, alone: true }
     }
 
     /// Where a direction meets the target's plane.

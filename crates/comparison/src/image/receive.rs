@@ -8,6 +8,7 @@ use twoforms_estimator::numbers::BATCH;
 use twoforms_geometry::lanes::Kernel;
 use twoforms_geometry::real::Real;
 use twoforms_geometry::vector::Vector;
+use twoforms_geometry::wide::EIGHT;
 
 use super::chunk::{Chunk, SIZE};
 use super::samples::Samples;
@@ -111,14 +112,21 @@ impl Receive<'_> {
         batch.wanted[batch.length..].fill(0);
         self.estimator.evaluate(self.light.instructions, batch);
         for block in blocks.drain(..) {
-            for (k, places) in block.camera_samples(each) {
-                chunk.rays[k] += batch.rays[places.clone()].iter().sum::<u32>();
-                for c in 0..3 {
-                    let sum = total(&batch.worth[c][places.clone()]);
-                    match quotients {
-                        None => chunk.value[c][k] += sum * share,
-                        Some(sums) => {
-                            sums[0][c][k] += sum;
+            match quotients {
+                None if each == 1 => chunk.take_over(block.first + block.done, batch, block.places),
+                None => {
+                    for (k, places) in block.camera_samples(each) {
+                        chunk.rays[k] += batch.rays[places.clone()].iter().sum::<u32>();
+                        for c in 0..3 {
+                            chunk.value[c][k] += total(&batch.worth[c][places.clone()]) * share;
+                        }
+                    }
+                }
+                Some(sums) => {
+                    for (k, places) in block.camera_samples(each) {
+                        chunk.rays[k] += batch.rays[places.clone()].iter().sum::<u32>();
+                        for c in 0..3 {
+                            sums[0][c][k] += total(&batch.worth[c][places.clone()]);
                             sums[1][c][k] += total(&batch.divisor[c][places.clone()]);
                         }
                     }
@@ -126,6 +134,21 @@ impl Receive<'_> {
             }
         }
         batch.length = 0;
+    }
+}
+
+impl Chunk {
+    /// Adds what samples of a batch are worth to consecutive camera samples with one light sample each.
+    fn take_over(&mut self, first: usize, batch: &Batch, places: Range<usize>) {
+        let taken = first..first + places.len();
+        for (sum, rays) in self.rays[taken.clone()].iter_mut().zip(&batch.rays[places.clone()]) {
+            *sum += rays;
+        }
+        for c in 0..3 {
+            for (value, worth) in self.value[c][taken.clone()].iter_mut().zip(&batch.worth[c][places.clone()]) {
+                *value += f64::from(*worth);
+            }
+        }
     }
 }
 
@@ -139,9 +162,17 @@ impl Together {
 
     /// Puts in a block of camera samples with so many light samples each, which look from `start`.
     fn push(&mut self, block: Block, each: usize, start: &[[f32; SIZE]; 2]) {
-        for (k, places) in block.camera_samples(each) {
+        if each == 1 {
+            let from = block.first + block.done;
             for c in 0..2 {
-                self.batch.start[c][places.clone()].fill(start[c][k]);
+                let start = &start[c][from..from + block.places.len()];
+                self.batch.start[c][block.places.clone()].copy_from_slice(start);
+            }
+        } else {
+            for (k, places) in block.camera_samples(each) {
+                for c in 0..2 {
+                    self.batch.start[c][places.clone()].fill(start[c][k]);
+                }
             }
         }
         self.batch.length = block.places.end;
@@ -149,9 +180,16 @@ impl Together {
     }
 }
 
-#[inline(always)]
+/// The sum of numbers, in eight partial sums.
 fn total(values: &[f32]) -> f64 {
-    values.iter().map(|&value| f64::from(value)).sum()
+    let mut parts = [0.0; EIGHT];
+    let (eights, rest) = values.as_chunks::<EIGHT>();
+    for eight in eights {
+        for k in 0..EIGHT {
+            parts[k] += f64::from(eight[k]);
+        }
+    }
+    parts.iter().sum::<f64>() + rest.iter().map(|&value| f64::from(value)).sum::<f64>()
 }
 
 /// Where the camera samples of a chunk would meet a pane, in the frame of the view from it; its third coordinate is zero.

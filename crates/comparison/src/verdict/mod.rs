@@ -38,6 +38,9 @@ const SHOWN: f64 = 0.5;
 /// How near samples must be to the one value that they can have: binary32 and its arithmetic.
 const SAME: f64 = 1e-5;
 
+/// Replicates below which their mean is not taken for normal, where the samples of each depend on each other.
+const FEW_REPLICATES: f64 = 300.0;
+const TOO_FEW_REPLICATES: &str = "fewer than 300 replicates of samples that depend on each other: too few to judge by";
 const TOO_FEW: &str = "fewer than 30 samples that are not zero: too few to judge by";
 const STRAY_LIGHT: &str = "light where there should be none, in too few samples to judge by";
 const HEAVY_TAIL: &str = "heavy-tailed: the samples show less than half of their exact variance";
@@ -180,6 +183,9 @@ impl Evidence {
         let shown = self.units.variance().unwrap_or(0.0);
         match () {
             () if (self.hits as f64) < FEW_HITS => Law::Unknown { note: TOO_FEW },
+            () if self.samples_per_unit > 1.0 && self.units.n < FEW_REPLICATES => {
+                Law::Unknown { note: TOO_FEW_REPLICATES }
+            }
             () if shown.sqrt() <= self.budget() => Law::Certain,
             () => self.normal(shown, self.units.n - 1.0),
         }

@@ -51,15 +51,7 @@ impl<R: Real> Reservoir<R> {
         let stretched = R::select(taken, self.u / share, (self.u - share) / (R::one() - share));
         self.u = R::select(R::zero().lt(w), stretched, self.u);
         self.per_target = R::select(taken, R::one() / target, self.per_target);
-        self.y = SurfacePoint {
-            position: Vector::new(
-                R::select(taken, y.position.x, self.y.position.x),
-                R::select(taken, y.position.y, self.y.position.y),
-                R::select(taken, y.position.z, self.y.position.z),
-            ),
-            depth: R::select(taken, y.depth, self.y.depth),
-            target: R::select_word(taken, y.target, self.y.target),
-        };
+        self.y = SurfacePoint::select(taken, y, &self.y);
         self.sum = sum;
     }
 }

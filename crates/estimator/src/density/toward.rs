@@ -26,7 +26,7 @@ impl Density<SolidAngle> for TowardLights<'_> {
     fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let (Sample { at: y, pdf }, some) = self.lights.sample(from, xi).parts();
         let xy = Segment::to(&y);
-        let at = Aim { psi: xy.psi, target: y.target };
+        let at = Aim { psi: xy.psi, target: y.target, alone: true };
         Masked::new(Sample { at, pdf: pdf.per_solid_angle(&xy) }, some & xy.facing())
     }
 
@@ -98,12 +98,13 @@ impl Density<SolidAngle> for TowardLightsMarginal<'_> {
         let xy = Segment::to(&y);
         let pdf = self.density(&from.only(some), xy.psi, y.target);
         let some = some & R::zero().lt(xy.cos_x) & R::zero().lt(pdf);
-        Masked::new(Sample { at: Aim::anywhere(xy.psi), pdf: Pdf::new(pdf) }, some)
+        let at = Aim { psi: xy.psi, target: y.target, alone: false };
+        Masked::new(Sample { at, pdf: Pdf::new(pdf) }, some)
     }
 
     #[inline(always)]
     fn pdf<R: Real>(&self, from: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
-        let pdf = self.density(from, aim.psi, R::Word::splat(ANYWHERE));
+        let pdf = self.density(from, aim.psi, aim.target);
         Masked::new(Pdf::new(pdf), R::zero().lt(aim.psi.cos_theta()) & R::zero().lt(pdf))
     }
 }
@@ -120,8 +121,9 @@ impl Ready for TowardLightsMarginally {
         Self(AreaOnLights::prepare(lights, selection))
     }
 
+    /// Which targets lie along Ψ, whichever side they show, is told by the facets of x alone.
     fn depends_on_x(&self) -> bool {
-        self.0.depends_on_x()
+        true
     }
 
     fn at<'a>(&'a self, view: &View, lights: &Lights) -> TowardLightsMarginal<'a> {

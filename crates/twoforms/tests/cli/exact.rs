@@ -1,7 +1,7 @@
 //! `exact`: what it prints.
 
 use serde_json::Value;
-use twoforms_estimator::strategy::Strategy;
+use twoforms_comparison::exactly::with_formula;
 
 use crate::support::{folder, has_all, names, twoforms};
 
@@ -18,7 +18,7 @@ fn the_fields_of_the_schema_are_there() {
         has_value(&receiver[irradiance]);
     }
     let strategies = receiver["strategies"].as_object().expect("strategies");
-    assert_eq!(strategies.len(), Strategy::all().len());
+    assert_eq!(strategies.len(), with_formula().len());
     strategies.values().for_each(|strategy| has_value(&strategy["variance_of_one"]));
 }
 
@@ -44,7 +44,7 @@ fn nothing_is_random() {
     let csv = |options: &str| twoforms(&format!("{LINE} --format csv {options}")).printed();
     let one = csv("--seed 1 --threads 1");
     assert_eq!(csv("--seed 2 --threads 2"), one);
-    assert_eq!(one.lines().count() - 1, Strategy::all().len());
+    assert_eq!(one.lines().count() - 1, with_formula().len());
 }
 
 #[test]

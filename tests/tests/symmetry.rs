@@ -114,6 +114,10 @@ fn indifferent_to_cuts() -> Vec<Strategy> {
         Strategy::Single(Technique { kind: Kind::AreaUniform | Kind::HemisphereTowardLights, selection }) => {
             matches!(selection, Selection::Uniform | Selection::Contribution)
         }
+        Strategy::Single(Technique { kind: Kind::AreaSolidAngle, selection }) => selection != Selection::Together,
+        Strategy::Single(Technique { kind: Kind::AreaProjectedSolidAngle, selection }) => {
+            matches!(selection, Selection::Uniform | Selection::Power)
+        }
         _ => false,
     };
     with_formula().into_iter().filter(|strategy| !depends(strategy)).collect()

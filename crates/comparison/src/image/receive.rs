@@ -27,7 +27,7 @@ struct Together {
     batch: Batch,
     blocks: Vec<Block>,
     /// Sums over the light samples of each camera sample, RGB, of an estimate that is a quotient: worths, and divisors.
-    quotients: Option<Box<[[[f64; SIZE]; 3]; 2]>>,
+    quotients: Option<[Vec<[f64; SIZE]>; 2]>,
 }
 
 /// Consecutive light samples of consecutive camera samples of one pixel.
@@ -66,7 +66,7 @@ impl Receive<'_> {
         self.evaluate(chunk, &mut together);
         if let Some(sums) = together.quotients {
             for k in chunk.that_meet(self.pane).collect::<Vec<_>>() {
-                let of = |sums: &[[f64; SIZE]; 3]| [sums[0][k], sums[1][k], sums[2][k]];
+                let of = |sums: &Vec<[f64; SIZE]>| [sums[0][k], sums[1][k], sums[2][k]];
                 let [sum, divisor] = sums.each_ref().map(of);
                 chunk.add(k, self.estimator.estimate(sum, divisor, self.light.each), 0);
             }
@@ -156,7 +156,7 @@ impl Together {
     fn new(estimator: &dyn Estimator) -> Self {
         let mut batch = Batch::new(estimator.pairs());
         batch.from_points = true;
-        let quotients = estimator.is_quotient().then(|| Box::new([[[0.0; SIZE]; 3]; 2]));
+        let quotients = estimator.is_quotient().then(|| [0, 1].map(|_| vec![[0.0; SIZE]; 3]));
         Self { batch, blocks: Vec::new(), quotients }
     }
 

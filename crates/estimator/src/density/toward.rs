@@ -97,7 +97,8 @@ impl Density<SolidAngle> for TowardLightsMarginal<'_> {
         let (Sample { at: y, .. }, some) = self.lights.sample(from, xi).parts();
         let xy = Segment::to(&y);
         let pdf = self.density(&from.only(some), xy.psi, y.target);
-        let some = some & R::zero().lt(xy.cos_x) & R::zero().lt(pdf);
+        let off_plane = R::zero().lt(y.depth) | y.depth.lt(R::zero());
+        let some = some & off_plane & R::zero().lt(xy.cos_x) & R::zero().lt(pdf);
         let at = Aim { psi: xy.psi, target: y.target, alone: false };
         Masked::new(Sample { at, pdf: Pdf::new(pdf) }, some)
     }

@@ -1,13 +1,15 @@
-//! The density of each strategy, with its domain.
+//! The density of each technique, with its domain.
 
-use twoforms_estimator::density::{CosineHemisphere, Density, OnLights, TowardLights, UniformHemisphere};
+use twoforms_estimator::density::{
+    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
+};
 use twoforms_estimator::lights::Lights;
 use twoforms_estimator::measure::Measure;
-use twoforms_estimator::selection::Picker;
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_geometry::view::View;
 
-use crate::domain::{Domain, HemisphereCells, LightCells};
+use crate::domain::{Domain, HemisphereCells, LightCells, LitDirections};
 
 /// Something to do with a density, whichever it is.
 pub trait Visitor {
@@ -17,22 +19,37 @@ pub trait Visitor {
     fn visit<M: Measure, D: Density<M>>(self, view: &View, density: &D, domain: &impl Domain<M>) -> Self::Output;
 }
 
-/// Hands the density of `strategy` to the visitor; `None` for one that has no sampler. A strategy that is new does not
-/// compile here until its density has a domain to be tested on.
-pub fn visit<V: Visitor>(strategy: Strategy, lights: &Lights, view: &View, visitor: V) -> Option<V::Output> {
-    match strategy {
-        Strategy::HemisphereUniform => Some(visitor.visit(view, &UniformHemisphere, &HemisphereCells)),
-        Strategy::HemisphereCosine => Some(visitor.visit(view, &CosineHemisphere, &HemisphereCells)),
-        Strategy::HemisphereTowardLights(selection) => {
-            let picker = &Picker::new(selection, lights)?;
-            Some(visitor.visit(view, &TowardLights { lights: OnLights { picker } }, &LightCells::new(view, picker)))
+/// Hands the density of `technique` to the visitor. A technique that is new does not compile here until its density has a
+/// domain to be tested on.
+pub fn visit<V: Visitor>(technique: Technique, lights: &Lights, view: &View, visitor: V) -> V::Output {
+    let Technique { kind, selection } = technique;
+    match kind {
+        Kind::HemisphereUniform => visitor.visit(view, &UniformHemisphere, &HemisphereCells),
+        Kind::HemisphereCosine => visitor.visit(view, &CosineHemisphere, &HemisphereCells),
+        Kind::HemisphereTowardLights => {
+            let ready = TowardPreparedLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::new(view, &density.lights.picker))
         }
-        Strategy::Area(Draw::Uniform, selection) => {
-            let picker = &Picker::new(selection, lights)?;
-            Some(visitor.visit(view, &OnLights { picker }, &LightCells::new(view, picker)))
+        Kind::HemisphereTowardLightsMarginal => {
+            let ready = TowardLightsMarginally::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LitDirections::new(view, &density.lights.picker))
         }
-        Strategy::Area(Draw::SolidAngle | Draw::ProjectedSolidAngle, _) | Strategy::Mis(_) | Strategy::Mixture(_) => {
-            None
+        Kind::AreaUniform => {
+            let ready = AreaOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::new(view, &density.picker))
+        }
+        Kind::AreaSolidAngle => {
+            let ready = SolidAngleOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
+        }
+        Kind::AreaProjectedSolidAngle => {
+            let ready = ProjectedSolidAngleOnLights::prepare(lights, selection);
+            let density = ready.at(view, lights);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
         }
     }
 }

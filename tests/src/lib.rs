@@ -1,8 +1,10 @@
 //! Support for the tests.
 
 pub mod built;
+pub mod costs;
 pub mod densities;
 pub mod domain;
+pub mod figure;
 pub mod samples;
 pub mod scenes;
 pub mod statistics;

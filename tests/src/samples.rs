@@ -1,15 +1,16 @@
 //! What single samples are worth.
 
+use twoforms_comparison::exactly;
 use twoforms_comparison::place::Place;
-use twoforms_estimator::density::Density;
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimator::Estimator;
-use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::moments::Moments;
+use twoforms_estimator::numbers::BATCH;
 use twoforms_estimator::query::Query;
-use twoforms_estimator::rgb::Rgb;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::strategy::{Known, Strategy};
 use twoforms_estimator::xi::{Draws, Key, Xi};
+use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};
 
 use crate::worlds::Case;
@@ -33,21 +34,28 @@ impl Samples {
         Self { sampler, draws: Draws { key: Key::new(words), stream: [n, 0] }, n }
     }
 
-    /// ξ of one of them.
+    /// The first pair of ξ of one of them.
     pub fn xi(&self, index: u32) -> Xi<f32> {
-        Stream { sampler: self.sampler, draws: self.draws }.xi(index)
+        self.stream().xi(index, 1).from(0).xi(0)
+    }
+
+    fn stream(&self) -> Stream {
+        Stream { sampler: self.sampler, draws: self.draws, n: self.n }
     }
 }
 
-impl Kernel for Samples {
-    type Output = Vec<[f32; 3]>;
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        let worth = |index| {
-            let (Rgb(worth), _) = estimator.primary(&estimator.view().from_x(), self.xi(index));
-            worth
-        };
-        (0..self.n).map(worth).collect()
+impl Samples {
+    /// What the samples are worth, by the scalar numbers.
+    pub fn of(&self, estimator: &dyn Estimator) -> Vec<[f32; 3]> {
+        let mut batch = Batch::new(estimator.pairs());
+        let mut worths = Vec::with_capacity(self.n as usize);
+        for first in (0..self.n).step_by(BATCH) {
+            batch.length = BATCH.min((self.n - first) as usize);
+            self.stream().fill(Instructions::SCALAR, first, batch.length, &mut batch.numbers);
+            estimator.evaluate(Instructions::SCALAR, &mut batch);
+            worths.extend((0..batch.length).map(|k| batch.worth.map(|channel| channel[k])));
+        }
+        worths
     }
 }
 
@@ -55,9 +63,14 @@ impl Kernel for Samples {
 pub fn samples(case: &Case, strategy: Strategy, sampler: Sampler, n: u32, seed: u64) -> Vec<[f32; 3]> {
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
-    let kernel = Samples::new(seed, &case.place, strategy, sampler, n);
-    let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-    prepared.run(&view, &Query::irradiance(&world.lights), kernel)
+    let (query, prepared) = (Query::irradiance(&world.lights), strategy.prepare(&world.lights));
+    Samples::new(seed, &case.place, strategy, sampler, n).of(&*prepared.at(&view, &query, &known(case)))
+}
+
+/// What strategies may know beforehand at a receiver.
+pub fn known(case: &Case) -> Known {
+    let optimal: Vec<Strategy> = Strategy::all().into_iter().filter(|strategy| strategy.needs_alpha()).collect();
+    exactly::at(&case.stage.world, &case.place, &optimal).known()
 }
 
 /// The moments of one channel.

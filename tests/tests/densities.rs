@@ -4,7 +4,9 @@ use rayon::prelude::*;
 use twoforms_estimator::density::Density;
 use twoforms_estimator::measure::{Measure, Sample};
 use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::selection::Selection;
 use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Technique;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_tests::densities::{Visitor, visit};
 use twoforms_tests::domain::{Domain, chi_square, value};
@@ -17,7 +19,8 @@ const LEVEL: f64 = 1e-3;
 /// Samples of each χ² test.
 const N: u32 = 50_000;
 
-/// Visits the densities of all strategies with all samplers at all receivers, each with what `visitor` makes of them.
+/// Visits the densities of all techniques at all receivers, each with what `visitor` makes of them; with all samplers where
+/// a scene's first receiver is and no light is picked.
 fn everywhere<V, T>(visitor: impl Fn(&Case, Strategy, Sampler) -> V + Sync) -> Vec<(String, T)>
 where
     V: Visitor<Output = T>,
@@ -28,12 +31,12 @@ where
         let world = &case.stage.world;
         let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
         let mut found = Vec::new();
-        for strategy in Strategy::all() {
-            for sampler in Sampler::ALL {
-                let name = format!("{case} {strategy} {sampler}");
-                let result = visit(strategy, &world.lights, &view, visitor(case, strategy, sampler));
-                assert!(result.is_some(), "{name} has no domain to be tested on");
-                found.extend(result.map(|result| (name, result)));
+        for technique in Technique::all() {
+            let all = case.place.name == case.stage.cases()[0].place.name && technique.selection == Selection::Together;
+            let random = Sampler::ALL.iter().copied().filter(|sampler| sampler.is_random());
+            for sampler in random.filter(|sampler| all || *sampler == Sampler::Independent) {
+                let name = format!("{case} {technique} {sampler}");
+                found.push((name, visit(technique, &world.lights, &view, visitor(case, technique.into(), sampler))));
             }
         }
         found

@@ -5,16 +5,18 @@ use twoforms_comparison::experiment::Experiment;
 use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::verdict::Criteria;
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimate, Estimator};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::Estimate;
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::secondary::secondary_by;
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_report::{Document, Provenance};
+use twoforms_tests::samples;
 use twoforms_tests::worlds::{self, Stage};
 
 const THREADS: [usize; 3] = [1, 2, 7];
@@ -28,7 +30,7 @@ fn on_threads<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> T {
 fn results_sha256(stage: &Stage, seed: u64, threads: usize) -> String {
     let experiment = Experiment {
         strategies: Strategy::all(),
-        samplers: Sampler::ALL.to_vec(),
+        samplers: vec![Sampler::Independent, Sampler::Sobol],
         samples: vec![1, 5, 1000],
         replicates: 70,
         seed,
@@ -66,18 +68,9 @@ fn a_seed_fixes_the_results_on_any_number_of_threads() {
 }
 
 /// The same estimate by each kind of instructions that the machine has.
-struct ByAll {
-    n: u32,
-    stream: Stream,
-}
-
-impl Kernel for ByAll {
-    type Output = Vec<Estimate>;
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        let by = |instructions| estimator.secondary_by(instructions, self.n, self.stream).expect("finite samples");
-        Instructions::all().into_iter().map(by).collect()
-    }
+fn by_all(estimator: &dyn Estimator, stream: Stream) -> Vec<Estimate> {
+    let by = |instructions| secondary_by(estimator, instructions, stream, 0..stream.n).expect("finite samples");
+    Instructions::all().into_iter().map(by).collect()
 }
 
 #[test]
@@ -85,17 +78,20 @@ fn bits_do_not_depend_on_the_instructions() {
     for case in worlds::cases(&worlds::all()) {
         let world = &case.stage.world;
         let query = Query::irradiance(&world.lights);
+        let known = samples::known(&case);
         let efforts = [Effort::Gather, Effort::Cast];
         let pairs = efforts.into_iter().flat_map(|effort| Strategy::all().into_iter().map(move |s| (effort, s)));
         for (effort, strategy) in pairs {
             let view = View::new(&world.geometry, case.place.frame(), effort);
+            let prepared = strategy.prepare(&world.lights);
             for n in [1, 17, 1000] {
                 let draws = Draws { key: Key::new([u64::from(n)]), stream: [n, 3] };
-                let stream = Stream { sampler: Sampler::Independent, draws };
-                let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-                let estimates = prepared.run(&view, &query, ByAll { n, stream });
-                let same = estimates.windows(2).all(|pair| pair[0] == pair[1]);
-                assert!(same, "{} {strategy} {effort:?} N = {n}: {estimates:?}", case.place.name);
+                for &sampler in Sampler::ALL.iter().filter(|sampler| sampler.is_random()) {
+                    let stream = Stream { sampler, draws, n: sampler.rounded(n) };
+                    let estimates = by_all(&*prepared.at(&view, &query, &known), stream);
+                    let same = estimates.windows(2).all(|pair| pair[0] == pair[1]);
+                    assert!(same, "{} {strategy} {sampler} {effort:?} N = {n}: {estimates:?}", case.place.name);
+                }
             }
         }
     }
@@ -123,7 +119,7 @@ fn pixels(stage: &Stage, strategy: Strategy, seed: u64, threads: usize) -> Vec<P
 #[test]
 fn a_seed_fixes_the_pixels_on_any_number_of_threads() {
     let stage = worlds::stage("cornell-box");
-    for strategy in Strategy::all() {
+    for strategy in Strategy::all_in_images() {
         let [one, two, seven] = THREADS.map(|threads| pixels(&stage, strategy, 7, threads));
         assert!(one == two && one == seven, "{strategy}");
         assert!(one != pixels(&stage, strategy, 8, 2), "{strategy}: seeds 7 and 8");
@@ -136,7 +132,7 @@ fn a_crop_is_part_of_the_image() {
     let stage = worlds::stage("cornell-box");
     let camera = &stage.world.scene.cameras[0];
     let whole = Rendering {
-        strategy: Strategy::HemisphereCosine,
+        strategy: Strategy::from(Kind::HemisphereCosine),
         sampler: Sampler::Independent,
         width: 12,
         height: 9,

@@ -1,15 +1,15 @@
 //! The density sets the variance, not the formulation: the same points through both formulations are worth the same.
 
 use rayon::prelude::*;
-use twoforms_estimator::density::{Density, OnLights};
+use twoforms_estimator::density::{AreaOnLights, Density, Ready};
 use twoforms_estimator::formulation::{Area, Formulation, Hemisphere};
-use twoforms_estimator::lights::Lights;
 use twoforms_estimator::measure::{Aim, Sample};
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::Rgb;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::{Picker, Selection};
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::selection::Selection;
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_geometry::segment::Segment;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_tests::samples::{Samples, samples};
@@ -49,14 +49,7 @@ impl Comparison {
 
 /// The ways to pick a light that `area/uniform` can be sampled with.
 fn selections() -> impl Iterator<Item = Selection> {
-    let selection =
-        |strategy| if let Strategy::Area(Draw::Uniform, selection) = strategy { Some(selection) } else { None };
-    Strategy::all().into_iter().filter_map(selection)
-}
-
-/// The points that one of them draws on the lights.
-fn picker(lights: &Lights, selection: Selection) -> Picker {
-    Picker::new(selection, lights).expect("a selection that can be sampled")
+    Selection::ALL.into_iter()
 }
 
 /// Compares at all receivers, by all selections of lights. A point within rounding of a shadow's edge may be seen one
@@ -85,13 +78,14 @@ fn through_both(case: &Case, selection: Selection) -> Comparison {
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let query = Query::irradiance(&world.lights);
-    let picker = picker(&world.lights, selection);
-    let lights = OnLights { picker: &picker };
-    let draws = Samples::new(SEED, &case.place, Strategy::Area(Draw::Uniform, selection), Sampler::Independent, N);
+    let ready = AreaOnLights::prepare(&world.lights, selection);
+    let lights = ready.at(&view, &world.lights);
+    let draws =
+        Samples::new(SEED, &case.place, Strategy::from((Kind::AreaUniform, selection)), Sampler::Independent, N);
     Comparison::of((0..N).filter_map(|index| {
         let (Sample { at: y, pdf: p }, some) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();
         let xy = Segment::to(&y);
-        let aim = Aim { psi: xy.psi, target: y.target };
+        let aim = Aim { psi: xy.psi, target: y.target, alone: true };
         let Rgb(area) = Area::integrand(&view.from_x(), &query, &y) / p;
         let Rgb(hemisphere) = Hemisphere::integrand(&view.from_x(), &query, &aim) / p.per_solid_angle(&xy);
         (some && xy.facing()).then_some([area, hemisphere])
@@ -108,8 +102,8 @@ fn the_jacobian_cancels() {
 fn toward_lights_is_area_uniform_sample_by_sample() {
     assert_same(|case, selection| {
         let draw = |strategy| samples(case, strategy, Sampler::Independent, N, SEED);
-        let area = draw(Strategy::Area(Draw::Uniform, selection));
-        let hemisphere = draw(Strategy::HemisphereTowardLights(selection));
+        let area = draw(Strategy::from((Kind::AreaUniform, selection)));
+        let hemisphere = draw(Strategy::from((Kind::HemisphereTowardLights, selection)));
         Comparison::of(area.into_iter().zip(hemisphere).map(|(a, h)| [a, h]))
     });
 }
@@ -121,9 +115,9 @@ fn a_density_goes_to_the_other_measure_and_back() {
     worlds::cases(&stages).par_iter().for_each(|case| {
         let world = &case.stage.world;
         let view = View::new(&world.geometry, case.place.frame(), Effort::Cast);
-        let picker = picker(&world.lights, Selection::Together);
-        let lights = OnLights { picker: &picker };
-        let strategy = Strategy::Area(Draw::Uniform, Selection::Together);
+        let ready = AreaOnLights::prepare(&world.lights, Selection::Together);
+        let lights = ready.at(&view, &world.lights);
+        let strategy = Strategy::from(Kind::AreaUniform);
         let draws = Samples::new(SEED, &case.place, strategy, Sampler::Independent, N);
         for index in 0..N {
             let (Sample { at: y, pdf: p }, _) = lights.sample::<f32>(&view.from_x(), draws.xi(index)).parts();

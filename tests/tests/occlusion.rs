@@ -4,12 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, Vec3};
 use rand_philox::Philox;
+use twoforms_comparison::exactly::with_formula;
 use twoforms_comparison::exactly::{self, Bounded, ExactLight};
 use twoforms_comparison::place::{Place, Quantity};
 use twoforms_comparison::world::World;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_geometry::ray::Ray;
 use twoforms_tests::built::{block, ceiling, world};
 use twoforms_tests::scenes::{Material, Part};
@@ -103,7 +105,7 @@ fn by_brute_force(world: &World, place: &Place, random: &mut Random) -> Vec<f64>
 
 /// E against the mean, and E[w²] = V + E² against the mean of squares, whose own spread is measured.
 fn outcomes(room: u64, world: &World, place: &Place, random: &mut Random) -> Vec<Outcome> {
-    let exact = exactly::at(world, place, &[Strategy::HemisphereUniform]).light;
+    let exact = exactly::at(world, place, &[Strategy::from(Kind::HemisphereUniform)]).light;
     let e = exact.irradiance.expect("an irradiance").luminance;
     let v = exact.strategies[0].variance_of_one.expect("a variance").luminance;
     let worth = by_brute_force(world, place, random);
@@ -180,7 +182,7 @@ fn awkward_receivers_get_their_limit_or_a_reason() {
         for offset in offsets {
             for (normal, toward) in axes.iter().flat_map(|n| axes.iter().map(move |t| (*n, *t))) {
                 let place = place(&format!("{at} + {offset} {toward}, {normal}"), at + offset * toward, normal);
-                is_sound(&place.name, &exactly::at(&world, &place, &Strategy::with_exact_variance()).light);
+                is_sound(&place.name, &exactly::at(&world, &place, &with_formula()).light);
             }
         }
     }
@@ -191,7 +193,8 @@ fn awkward_receivers_get_their_limit_or_a_reason() {
 #[test]
 fn near_a_light_there_is_a_limit_and_on_it_none_of_its_light() {
     let world = with_wall();
-    let strategies: Vec<Strategy> = vec!["area/uniform".parse().expect("a name"), Strategy::HemisphereCosine];
+    let strategies: Vec<Strategy> =
+        vec!["area/uniform".parse().expect("a name"), Strategy::from(Kind::HemisphereCosine)];
     let at = |y: f64| exactly::at(&world, &place("x", DVec3::new(0.0, y, 0.0), DVec3::Y), &strategies).light;
     let on = at(1.0);
     assert_eq!(on.irradiance.expect("E").luminance, 0.0);

@@ -1,16 +1,18 @@
 //! The tests are tested: estimators that are wrong in the ways that estimators go wrong are found out by the very tests
 //! that the right ones pass.
 
+use std::borrow::Cow;
 use std::f32::consts::TAU;
 
-use twoforms_estimator::density::{CosineHemisphere, Density, OnLights, TowardLights};
-use twoforms_estimator::estimator::Estimator;
+use twoforms_estimator::density::{ByArea, CosineHemisphere, Density, OnLights, TowardLights};
+use twoforms_estimator::estimator::Single;
 use twoforms_estimator::formulation::{Area, Formulation, Hemisphere};
 use twoforms_estimator::measure::{Aim, Integrand, Measure, Pdf, Sample, SolidAngle, SurfaceArea};
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::{Pick, Picker, Selection};
-use twoforms_estimator::strategy::{Kernel, Strategy};
+use twoforms_estimator::selection::{Picker, Selection};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_estimator::xi::Xi;
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
@@ -37,7 +39,11 @@ impl Formulation for WithoutCosineAtLight {
     fn integrand<R: Real>(view: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
         let v = view.visible(y, xy.facing());
-        Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r() * (xy.cos_x / (xy.r * xy.r)))
+        Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r(xy.psi) * (xy.cos_x / (xy.r * xy.r)))
+    }
+
+    fn seen<R: Real>(view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<SurfacePoint<R>, R> {
+        Area::seen(view, y)
     }
 
     fn asks<R: Real>(y: &SurfacePoint<R>) -> R::Mask {
@@ -54,7 +60,11 @@ impl Formulation for WithoutVisibility {
 
     fn integrand<R: Real>(_: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
-        Integrand::new(query.l_e(Masked::new(*y, xy.facing())) * query.f_r() * xy.g())
+        Integrand::new(query.l_e(Masked::new(*y, xy.facing())) * query.f_r(xy.psi) * xy.g())
+    }
+
+    fn seen<R: Real>(view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<SurfacePoint<R>, R> {
+        Area::seen(view, y)
     }
 
     fn asks<R: Real>(y: &SurfacePoint<R>) -> R::Mask {
@@ -94,7 +104,7 @@ impl Density<SolidAngle> for CosineToldUniform {
 }
 
 /// Draws directions toward points on lights, and tells the density of the points as if it were that of the directions.
-struct AreaToldSolidAngle<'p>(OnLights<'p, Picker>);
+struct AreaToldSolidAngle<'p>(OnLights<'p, ByArea>);
 
 impl Density<SolidAngle> for AreaToldSolidAngle<'_> {
     fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
@@ -102,20 +112,18 @@ impl Density<SolidAngle> for AreaToldSolidAngle<'_> {
             let density = self.0.picker.density::<R>(at.target);
             Sample { at, pdf: Pdf::new(density) }
         };
-        TowardLights { lights: OnLights { picker: self.0.picker } }.sample(view, xi).map(told)
+        TowardLights { lights: self.0.clone() }.sample(view, xi).map(told)
     }
 
     fn pdf<R: Real>(&self, view: &Vantage<R>, at: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
-        TowardLights { lights: OnLights { picker: self.0.picker } }
-            .pdf(view, at)
-            .map(|_| Pdf::new(self.0.picker.density::<R>(at.target)))
+        TowardLights { lights: self.0.clone() }.pdf(view, at).map(|_| Pdf::new(self.0.picker.density::<R>(at.target)))
     }
 }
 
 /// Picks lights one way, and tells the density of another.
 struct PickedToldOther<'p> {
-    picked: OnLights<'p, Picker>,
-    told: OnLights<'p, Picker>,
+    picked: OnLights<'p, ByArea>,
+    told: OnLights<'p, ByArea>,
 }
 
 impl Density<SurfaceArea> for PickedToldOther<'_> {
@@ -133,7 +141,7 @@ impl Density<SurfaceArea> for PickedToldOther<'_> {
 }
 
 /// Points on triangles without the square root: denser toward the first corner.
-struct WithoutSquareRoot<'p>(OnLights<'p, Picker>);
+struct WithoutSquareRoot<'p>(OnLights<'p, ByArea>);
 
 impl Density<SurfaceArea> for WithoutSquareRoot<'_> {
     fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
@@ -145,6 +153,11 @@ impl Density<SurfaceArea> for WithoutSquareRoot<'_> {
     fn pdf<R: Real>(&self, view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<Pdf<SurfaceArea, R>, R> {
         self.0.pdf(view, y)
     }
+}
+
+/// Points uniform over the area of targets picked so.
+fn on(picker: &Picker) -> OnLights<'_, ByArea> {
+    OnLights { picker: Cow::Borrowed(picker), spread: ByArea }
 }
 
 /// What a wrong estimator is tried on.
@@ -159,17 +172,17 @@ impl<'a> Trial<'a> {
     fn new(case: Case<'a>) -> Self {
         let world = &case.stage.world;
         let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
-        let strategy = Strategy::HemisphereUniform;
+        let strategy = Strategy::from(Kind::HemisphereUniform);
         let draws = Samples::new(SEED, &case.place, strategy, Sampler::Independent, N);
         Self { view, query: Query::irradiance(&world.lights), draws, case }
     }
 
     fn picker(&self, selection: Selection) -> Picker {
-        Picker::new(selection, &self.case.stage.world.lights).expect("a selection that can be sampled")
+        Picker::of_area(selection, &self.case.stage.world.lights).expect("a selection that is the same for every x")
     }
 
     fn samples<F: Formulation, D: Density<F::Measure>>(&self, density: D) -> Vec<[f32; 3]> {
-        self.draws.run(&Estimator::<F, D>::new(&self.view, &self.query, density))
+        self.draws.of(&Single::<F, D>::new(&self.view, &self.query, density))
     }
 
     /// The test of a mean against the known answer, by the measured variance.
@@ -206,22 +219,19 @@ fn wrong_means_are_rejected() {
     let by_area = |trial: &Trial| trial.picker(Selection::Together);
 
     let picker = &by_area(&near);
-    let area = || OnLights { picker };
+    let area = || on(picker);
     let all = near.samples::<Hemisphere, _>(CosineHemisphere);
     let hits: Vec<[f32; 3]> = all.into_iter().filter(|worth| worth[0] != 0.0).collect();
     let (picked, told) = (&by_area(&both), &both.picker(Selection::Power));
-    let other = PickedToldOther { picked: OnLights { picker: picked }, told: OnLights { picker: told } };
+    let other = PickedToldOther { picked: on(picked), told: on(told) };
     let wrong = vec![
         near.estimate::<WithoutCosineAtLight, _>("no cosine at the light", area()),
-        aside.estimate::<WithoutCosineAtLight, _>("no cosine at the light", OnLights { picker: &by_area(&aside) }),
-        penumbra.estimate::<WithoutVisibility, _>("no visibility", OnLights { picker: &by_area(&penumbra) }),
+        aside.estimate::<WithoutCosineAtLight, _>("no cosine at the light", on(&by_area(&aside))),
+        penumbra.estimate::<WithoutVisibility, _>("no visibility", on(&by_area(&penumbra))),
         near.estimate::<Hemisphere, _>("density per area told per solid angle", AreaToldSolidAngle(area())),
         near.estimate::<Hemisphere, _>("cosine-weighted directions told uniform", CosineToldUniform),
         near.estimate::<Hemisphere, _>("2 % too dense", Scaled { right: CosineHemisphere, factor: 1.02 }),
-        aside.estimate::<Area, _>(
-            "1 % too dense",
-            Scaled { right: OnLights { picker: &by_area(&aside) }, factor: 1.01 },
-        ),
+        aside.estimate::<Area, _>("1 % too dense", Scaled { right: on(&by_area(&aside)), factor: 1.01 }),
         near.mean("samples that are zero left out", &hits),
         both.estimate::<Area, _>("lights picked by area told by power", other),
     ];
@@ -238,11 +248,8 @@ fn right_means_are_not() {
         let trial = Trial::new(case);
         let picker = trial.picker(Selection::Together);
         [
-            trial.estimate::<Area, _>("area/uniform", OnLights { picker: &picker }),
-            trial.estimate::<Hemisphere, _>(
-                "hemisphere/toward-lights",
-                TowardLights { lights: OnLights { picker: &picker } },
-            ),
+            trial.estimate::<Area, _>("area/uniform", on(&picker)),
+            trial.estimate::<Hemisphere, _>("hemisphere/toward-lights", TowardLights { lights: on(&picker) }),
             trial.estimate::<Hemisphere, _>("hemisphere/cosine", CosineHemisphere),
         ]
     });
@@ -261,7 +268,7 @@ fn wrong_densities_are_rejected() {
     let directions = |density: &CosineToldUniform| chi_square(&near.view, density, &HemisphereCells, &near.draws);
     let picker = triangle.picker(Selection::Together);
     let cells = LightCells::new(&triangle.view, &picker);
-    let points = chi_square(&triangle.view, &WithoutSquareRoot(OnLights { picker: &picker }), &cells, &triangle.draws);
+    let points = chi_square(&triangle.view, &WithoutSquareRoot(on(&picker)), &cells, &triangle.draws);
     let wrong = vec![
         outcome("cosine-weighted directions told uniform", directions(&CosineToldUniform)),
         outcome("triangle without the square root", points),

@@ -3,10 +3,12 @@
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
+use twoforms_comparison::exactly::with_formula;
 use twoforms_comparison::exactly::{self, Bounded};
 use twoforms_comparison::world::World;
 use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_tests::built::{block, ceiling, places, world};
 use twoforms_tests::scenes::{Material, Part, Receiver};
 
@@ -92,7 +94,7 @@ fn under(matrix: [[f64; 3]; 3], document: &mut Value) {
 #[test]
 fn a_mirror_changes_nothing() {
     let mirrored = world(&parts(), &receivers(), mirror);
-    same_light(&mirrored, &plain(&parts()), &Strategy::with_exact_variance());
+    same_light(&mirrored, &plain(&parts()), &with_formula());
 }
 
 #[test]
@@ -102,23 +104,23 @@ fn quarter_turns_change_nothing() {
     let turns = [[minus(z), y, x], [minus(x), y, minus(z)], [y, minus(x), z], [y, z, x], [x, z, minus(y)]];
     for turn in turns {
         let turned = world(&parts(), &receivers(), |document| under(turn, document));
-        same_light(&turned, &plain(&parts()), &Strategy::with_exact_variance());
+        same_light(&turned, &plain(&parts()), &with_formula());
     }
 }
 
 /// Strategies whose density over points does not depend on how lights of one radiance are cut into primitives.
 fn indifferent_to_cuts() -> Vec<Strategy> {
     let depends = |strategy: &Strategy| match *strategy {
-        Strategy::Area(Draw::Uniform, selection) | Strategy::HemisphereTowardLights(selection) => {
+        Strategy::Single(Technique { kind: Kind::AreaUniform | Kind::HemisphereTowardLights, selection }) => {
             matches!(selection, Selection::Uniform | Selection::Contribution)
         }
-        Strategy::Area(Draw::SolidAngle, selection) => selection != Selection::Together,
-        Strategy::Area(Draw::ProjectedSolidAngle, selection) => {
+        Strategy::Single(Technique { kind: Kind::AreaSolidAngle, selection }) => selection != Selection::Together,
+        Strategy::Single(Technique { kind: Kind::AreaProjectedSolidAngle, selection }) => {
             matches!(selection, Selection::Uniform | Selection::Power)
         }
         _ => false,
     };
-    Strategy::with_exact_variance().into_iter().filter(|strategy| !depends(strategy)).collect()
+    with_formula().into_iter().filter(|strategy| !depends(strategy)).collect()
 }
 
 #[test]
@@ -143,6 +145,6 @@ fn a_triangle_that_hides_nothing_changes_nothing() {
     };
     for at in [[0.125, 0.5, 0.0], [0.0, 1.75, 0.0], [0.25, -0.75, 0.25], [-1.25, 0.5, 0.0]] {
         let with = [parts(), vec![Part::new("hidden", grey, vec![triangle(at)])]].concat();
-        same_light(&plain(&with), &plain(&parts()), &Strategy::with_exact_variance());
+        same_light(&plain(&with), &plain(&parts()), &with_formula());
     }
 }

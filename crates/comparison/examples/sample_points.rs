@@ -9,12 +9,10 @@ use std::error::Error;
 
 use glam::DVec3;
 use twoforms_comparison::world::World;
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimate, Estimator, NotFinite};
-use twoforms_estimator::formulation::Formulation;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::strategy::{Kernel, Prepared, Strategy};
+use twoforms_estimator::secondary::secondary;
+use twoforms_estimator::strategy::{Known, Prepared, Strategy};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::view::{Effort, View};
@@ -24,24 +22,11 @@ use support::{arguments, seconds, whole};
 
 const USAGE: &str = "usage: sample_points SCENE POINTS.csv STRATEGY N [--repeat K]";
 
-struct Samples {
-    n: u32,
-    stream: Stream,
-}
-
-impl Kernel for Samples {
-    type Output = Result<Estimate, NotFinite>;
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
-        estimator.secondary(self.n, self.stream)
-    }
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let ([scene, points, strategy, n], [repeat]) = arguments(USAGE, ["--repeat"])?;
     let (strategy, n): (Strategy, u32) = (strategy.parse()?, whole(&n, "N")?);
     let world = World::new(Scene::load(scene.as_ref())?)?;
-    let prepared = strategy.prepare(&world.lights)?;
+    let prepared = strategy.prepare(&world.lights);
     let frames = frames(&std::fs::read_to_string(points)?)?;
     let mut mean = 0.0;
     let seconds = seconds(repeat, |round| {
@@ -79,8 +64,8 @@ fn mean_irradiance(
     for (frame, point) in frames.iter().zip(0..) {
         let view = View::new(&world.geometry, *frame, Effort::Gather);
         let draws = Draws { key: Key::new([round, point]), stream: [n, 0] };
-        let stream = Stream { sampler: Sampler::Independent, draws };
-        sum += prepared.run(&view, &query, Samples { n, stream })?.luminance.mean;
+        let stream = Stream { sampler: Sampler::Independent, draws, n };
+        sum += secondary(&*prepared.at(&view, &query, &Known::default()), stream)?.luminance.mean;
     }
     Ok(sum / frames.len() as f64)
 }

@@ -1,6 +1,6 @@
 //! The answer without chance at one receiver, as rows and verdicts ask for it.
 
-use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::strategy::{Known, Strategy};
 
 use crate::exactly::{ExactResult, at};
 use crate::place::Place;
@@ -14,6 +14,11 @@ impl Answer {
     /// Works out the answer for these strategies.
     pub(crate) fn new(world: &World, place: &Place, strategies: &[Strategy]) -> Self {
         Self(at(world, place, strategies))
+    }
+
+    /// What is known beforehand for strategies that use it.
+    pub(crate) fn known(&self) -> Known {
+        self.0.known()
     }
 
     /// The exact value, or why there is none.

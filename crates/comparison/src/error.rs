@@ -1,14 +1,14 @@
 //! Why a run stops.
 
-use twoforms_estimator::estimator::NotFinite;
-use twoforms_estimator::strategy::{NotSampled, Strategy};
+use twoforms_estimator::estimate::NotFinite;
+use twoforms_estimator::strategy::Strategy;
 
 /// Why a comparison or an image stops.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ComparisonError {
     /// A strategy cannot be sampled.
-    #[error(transparent)]
-    NotSampled(#[from] NotSampled),
+    #[error("{0}")]
+    Impossible(String),
     /// A sample of a comparison is not finite.
     #[error(transparent)]
     Broken(#[from] Broken),

@@ -6,8 +6,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use twoforms_estimator::rgb::luminance;
-use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::strategy::{Known, Strategy};
 use twoforms_exact::{Error, Sight, Value, receiver};
+
+pub use twoforms_exact::with_formula;
 
 use crate::place::Place;
 use crate::result::Why;
@@ -26,6 +28,9 @@ pub struct ExactResult {
     /// The light there.
     #[serde(flatten)]
     pub light: ExactLight,
+    /// α of the default team with optimal weights, RGB, where a strategy uses it.
+    #[serde(skip)]
+    pub(crate) alpha: Option<[[f64; 3]; 2]>,
     /// The light along a sweep, where one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Swept>,
@@ -102,14 +107,21 @@ pub fn exactly(
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
     let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
-    ExactResult::new(place, ExactLight::of(place, sight, strategies), None)
+    let needed = strategies.iter().any(|strategy| strategy.needs_alpha());
+    let alpha = sight.as_ref().ok().filter(|_| needed).and_then(|sight| sight.optimal_alpha().ok());
+    ExactResult { alpha, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
 }
 
 impl ExactResult {
+    /// What is known beforehand for strategies that use it, as far as those that were asked about do.
+    pub fn known(&self) -> Known {
+        Known { alpha: self.alpha }
+    }
+
     /// What is known at a place.
     pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
         let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());
-        Self { name, position, normal, light, sweep }
+        Self { name, position, normal, light, alpha: None, sweep }
     }
 }
 

@@ -51,14 +51,18 @@ impl Experiment {
     /// `progress` is told of samples drawn, from any thread.
     ///
     /// # Errors
-    /// When a strategy has no sampler, or a sample is not finite.
+    /// When a strategy is impossible, or a sample is not finite.
     pub fn run(
         &self,
         world: &World,
         places: &[Place],
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<ReceiverResult>, ComparisonError> {
-        let prepared = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(why) = self.strategies.iter().find_map(|strategy| strategy.impossible()) {
+            return Err(ComparisonError::Impossible(why));
+        }
+        self.admit()?;
+        let prepared: Vec<Prepared> = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect();
         let plans = self.plans(&prepared);
         let mut report = Report::default();
         for group in places.chunks(RECEIVERS_AT_ONCE) {
@@ -67,11 +71,30 @@ impl Experiment {
         Ok(report.judged(self.criteria))
     }
 
+    /// Makes sure that every sampler can spread the numbers of every strategy.
+    fn admit(&self) -> Result<(), ComparisonError> {
+        for strategy in &self.strategies {
+            for sampler in &self.samplers {
+                let refused = |why| ComparisonError::Impossible(format!("\"{strategy}\": {why}"));
+                sampler.admit(strategy.pairs()).map_err(refused)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The N that a sampler takes where another one is asked for: all that are rounded up, with what they become.
+    pub fn rounded(&self) -> Vec<(Sampler, [u32; 2])> {
+        let of = |&sampler: &Sampler| self.samples.iter().map(move |&n| (sampler, [n, sampler.rounded(n)]));
+        self.samplers.iter().flat_map(of).filter(|(_, [n, rounded])| n != rounded).collect()
+    }
+
     fn plans<'a>(&self, prepared: &'a [Prepared]) -> Vec<Plan<'a>> {
         let mut plans = Vec::new();
         for prepared in prepared {
             for &sampler in &self.samplers {
-                plans.extend(self.samples.iter().map(|&samples| Plan { prepared, sampler, samples }));
+                let mut samples: Vec<u32> = self.samples.iter().map(|&samples| sampler.rounded(samples)).collect();
+                samples.dedup();
+                plans.extend(samples.into_iter().map(|samples| Plan { prepared, sampler, samples }));
             }
         }
         plans
@@ -84,15 +107,16 @@ impl Experiment {
         plans: &[Plan],
         progress: &(dyn Fn(u64) + Sync),
         report: &mut Report,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), ComparisonError> {
         let ready: Vec<Ready> = places.par_iter().map(|place| Ready::new(world, place, &self.strategies)).collect();
+        self.check_known(places, &ready)?;
         let tasks: Vec<Task> =
             (0..places.len()).flat_map(|p| (0..plans.len()).flat_map(move |r| self.tasks(p, r, &plans[r]))).collect();
         let measured: Vec<Result<Measurement, Broken>> = tasks
             .par_iter()
             .map(|task| {
                 let (place, plan) = (&places[task.place], &plans[task.plan]);
-                let part = self.measure(world, place, &ready[task.place].view, plan, task)?;
+                let part = self.measure(world, place, &ready[task.place], plan, task)?;
                 progress(u64::from(plan.samples) * task.replicates.len() as u64);
                 Ok(part)
             })
@@ -113,9 +137,23 @@ impl Experiment {
         Ok(())
     }
 
+    /// Makes sure that what strategies must know beforehand is known everywhere.
+    fn check_known(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
+        let Some(strategy) = self.strategies.iter().find(|strategy| strategy.needs_alpha()) else { return Ok(()) };
+        let unknown = places.iter().zip(ready).find(|(_, ready)| ready.answer.known().alpha.is_none());
+        match unknown {
+            None => Ok(()),
+            Some((place, ready)) => Err(ComparisonError::Impossible(format!(
+                "\"{strategy}\" needs α, which is not known at receiver \"{}\": {}; leave the strategy or the receiver out",
+                place.name,
+                ready.answer.irradiance().err().unwrap_or("its integrals do not converge there"),
+            ))),
+        }
+    }
+
     /// Cuts one row's replicates into tasks, by N and R alone.
     fn tasks(&self, place: usize, plan: usize, row: &Plan) -> impl Iterator<Item = Task> + use<> {
-        let replicates = self.replicates;
+        let replicates = if row.sampler.is_random() { self.replicates } else { 1 };
         let size = (SAMPLES_PER_TASK / u64::from(row.samples)).clamp(1, u64::from(replicates)) as u32;
         let starts = (0..replicates).step_by(size as usize);
         starts.map(move |start| Task { place, plan, replicates: start..replicates.min(start.saturating_add(size)) })
@@ -125,13 +163,14 @@ impl Experiment {
         &self,
         world: &World,
         place: &Place,
-        view: &View,
+        ready: &Ready,
         plan: &Plan,
         task: &Task,
     ) -> Result<Measurement, Broken> {
         let strategy = plan.prepared.strategy();
         let key = self.key(place, strategy, plan.sampler);
-        Measurement::of(plan, view, &place.query(&world.lights), place.emission(), key, task).map_err(
+        let (query, known) = (place.query(&world.lights), ready.answer.known());
+        Measurement::of(plan, &ready.view, &query, &known, place.emission(), key, task).map_err(
             |(replicate, source)| Broken {
                 receiver: place.name.clone(),
                 strategy,

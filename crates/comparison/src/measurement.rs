@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{self, Estimator, NotFinite};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::{self, NotFinite};
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::sampler::Stream;
-use twoforms_estimator::strategy::Kernel;
+use twoforms_estimator::secondary::secondary;
+use twoforms_estimator::strategy::Known;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::view::View;
 
@@ -30,7 +30,7 @@ pub(crate) struct Measurement {
     /// Samples that were not zero.
     pub(crate) hits: u64,
     /// Range of the samples that were not zero.
-    pub(crate) range: estimator::Range,
+    pub(crate) range: estimate::Range,
     /// CPU seconds.
     pub(crate) seconds: f64,
 }
@@ -41,12 +41,14 @@ impl Measurement {
         plan: &Plan,
         view: &View,
         query: &Query,
+        known: &Known,
         emission: [f64; 3],
         key: Key,
         task: &Task,
     ) -> Result<Self, (u32, NotFinite)> {
-        let replicates = Replicates { plan, key, range: task.replicates.clone(), emission };
-        let (measured, seconds) = clock::timed(|| plan.prepared.run(view, query, replicates));
+        let estimator = plan.prepared.at(view, query, known);
+        let replicates = Replicates { plan, estimator: &*estimator, key, range: task.replicates.clone(), emission };
+        let (measured, seconds) = clock::timed(|| replicates.measure());
         Ok(Self { seconds, ..measured? })
     }
 
@@ -67,7 +69,7 @@ impl Measurement {
         Self { one, hits, range: self.range.with(row.range), ..self }
     }
 
-    fn push(&mut self, estimate: &estimator::Estimate, emission: [f64; 3]) {
+    fn push(&mut self, estimate: &estimate::Estimate, emission: [f64; 3]) {
         let value: [f64; 3] = std::array::from_fn(|c| estimate.value[c] + emission[c]);
         self.estimates.push(luminance(value));
         self.total = std::array::from_fn(|c| self.total[c] + value[c]);
@@ -80,22 +82,20 @@ impl Measurement {
 
 struct Replicates<'a> {
     plan: &'a Plan<'a>,
+    estimator: &'a dyn Estimator,
     key: Key,
     range: Range<u32>,
     emission: [f64; 3],
 }
 
-impl Kernel for Replicates<'_> {
-    type Output = Result<Measurement, (u32, NotFinite)>;
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Self::Output {
+impl Replicates<'_> {
+    fn measure(self) -> Result<Measurement, (u32, NotFinite)> {
         let Plan { sampler, samples, .. } = *self.plan;
         let mut measurement = Measurement::default();
         for replicate in self.range {
             let draws = Draws { key: self.key, stream: [samples, replicate] };
-            let estimate = estimator
-                .secondary(samples, Stream { sampler, draws })
-                .map_err(|not_finite| (replicate, not_finite))?;
+            let stream = Stream { sampler, draws, n: samples };
+            let estimate = secondary(self.estimator, stream).map_err(|not_finite| (replicate, not_finite))?;
             measurement.push(&estimate, self.emission);
         }
         Ok(measurement)

@@ -85,7 +85,11 @@ pub struct Row {
     pub replicates: u64,
     /// Mean over all replicates.
     pub mean: Colour,
-    /// Sample variance (n − 1) of the R estimates' luminances: the variance of an N-sample estimate. `null` at R = 1.
+    /// The mean less the exact value, luminance; `null` where there is no exact value. All that can be said of a
+    /// deterministic rule.
+    pub error: Option<f64>,
+    /// Sample variance (n − 1) of the R estimates' luminances: the variance of an N-sample estimate. `null` at R = 1 and for
+    /// deterministic rules.
     pub variance_of_mean: Option<f64>,
     /// 95 % interval of `variance_of_mean`.
     pub variance_interval: Option<[f64; 2]>,
@@ -163,8 +167,10 @@ pub struct Rate {
     pub slope: Option<f64>,
     /// 95 % interval of the slope.
     pub interval: Option<[f64; 2]>,
-    /// Name of the regime whose slope lies in the interval, for example `1/N`.
+    /// Name of the one regime whose slope lies in the interval, for example `1/N`.
     pub regime: Option<String>,
+    /// Names of all regimes whose slopes lie in the interval.
+    pub candidates: Vec<String>,
     /// Reasons for missing values.
     #[serde(skip_serializing_if = "Why::is_empty")]
     pub why: Why,

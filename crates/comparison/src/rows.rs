@@ -18,6 +18,8 @@ use crate::verdict::{Criteria, Evidence, judge};
 
 /// δ of the Chebyshev bound that rows report: at most one replicate in twenty outside.
 const DELTA: f64 = 0.05;
+/// Why a deterministic rule has no variance.
+const NO_CHANCE: &str = "a deterministic rule has an error, and no variance";
 /// Hits from which samples that all have one value are taken for two-valued, the other value being zero.
 const HITS_OF_ONE_VALUE: u64 = 30;
 
@@ -90,8 +92,14 @@ fn evidence(receiver: usize, emission: f64, measured: &[(&Plan, Measurement)], a
             samples_per_unit: 1.0,
             hits: pooled.hits,
             one_value: pooled.range.is_one_value().then_some(pooled.range.high),
+            signed: strategy.can_be_negative(),
+            biased: strategy.is_biased() || !sampler.is_random(),
         };
-        if sampler == Sampler::Independent { evidence } else { evidence.of_replicates(&replicates(&rows, emission)) }
+        if sampler == Sampler::Independent && !strategy.is_biased() {
+            evidence
+        } else {
+            evidence.of_replicates(&replicates(&rows, emission))
+        }
     };
     pairs(measured).into_iter().map(of).collect()
 }
@@ -113,11 +121,14 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
     let replicates = measured.estimates.len();
     let strategy = plan.prepared.strategy();
     let seconds = measured.seconds / replicates as f64;
-    let variance_of_mean = or_why(&mut why, "variance_of_mean", sample_variance(&measured.estimates), || {
-        "a variance needs at least two replicates".into()
+    let random = plan.sampler.is_random();
+    let variance = sample_variance(&measured.estimates);
+    let variance_of_mean = or_why(&mut why, "variance_of_mean", variance, || {
+        if random { "a variance needs at least two replicates".into() } else { NO_CHANCE.into() }
     });
-    let interval = interval(plan, measured);
-    let variance_interval = interval.map_err(|reason| why.insert("variance_interval", reason.to_string())).ok();
+    let interval =
+        interval(plan, measured).map_err(|reason| if random { reason.to_string() } else { NO_CHANCE.into() });
+    let variance_interval = interval.map_err(|reason| why.insert("variance_interval", reason)).ok();
     let exact = if plan.sampler == Sampler::Independent {
         answer.variance_of_one(strategy)
     } else {
@@ -129,22 +140,30 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
     let variance_ratio = or_why(&mut why, "variance_ratio", variance_of_mean.and_then(over_exact), || {
         "the measured or the exact variance is unknown, or the exact one is zero".into()
     });
-    let variance_of_one =
-        or_why(&mut why, "variance_of_one", measured.one.variance(), || "there is a single sample".into());
+    let of_one = measured.one.variance().filter(|_| random && !strategy.is_biased());
+    let variance_of_one = or_why(&mut why, "variance_of_one", of_one, || match (random, strategy.is_biased()) {
+        (false, _) => NO_CHANCE.into(),
+        (true, true) => "an estimate is a quotient of sums, not a mean of samples".into(),
+        (true, false) => "there is a single sample".into(),
+    });
+    let mean = Colour::from(measured.total.map(|sum| sum / replicates as f64));
+    let error = answer.irradiance().map(|exact| mean.luminance - exact.irradiance.luminance);
+    let error = error.map_err(|reason| why.insert("error", reason.to_owned())).ok();
     let efficiency = variance_of_mean.and_then(|variance| efficiency(variance, seconds));
     Row {
         strategy: strategy.to_string(),
         sampler: plan.sampler.to_string(),
         samples: plan.samples.into(),
         replicates: replicates as u64,
-        mean: Colour::from(measured.total.map(|sum| sum / replicates as f64)),
+        mean,
+        error,
         variance_of_mean,
         variance_interval,
         variance_exact,
         variance_ratio,
         variance_ratio_interval: ratio_interval(&mut why, variance_interval, &over_exact),
         variance_of_one,
-        chebyshev: kept(measured, answer, variance_exact),
+        chebyshev: kept(measured, answer, variance_exact).filter(|_| random),
         rays: measured.rays as f64 / replicates as f64,
         seconds,
         efficiency: or_why(&mut why, "efficiency", efficiency, || "the variance or the time is zero or unknown".into()),
@@ -222,7 +241,8 @@ fn rates(measured: &[(&Plan, Measurement)]) -> Vec<Rate> {
 
 fn rate(strategy: Strategy, sampler: Sampler, points: &[(u64, LogVariance)]) -> Rate {
     let mut why = Why::new();
-    let fit = fit_rate(points).map_err(|reason| why.insert("slope", reason.to_string())).ok();
+    let no_slope = |reason: Reason| if sampler.is_random() { reason.to_string() } else { NO_CHANCE.to_owned() };
+    let fit = fit_rate(points).map_err(|reason| why.insert("slope", no_slope(reason))).ok();
     let regime = fit.and_then(|fit| fit.regime.map_err(|reason| why.insert("regime", reason.to_string())).ok());
     Rate {
         strategy: strategy.to_string(),
@@ -230,6 +250,7 @@ fn rate(strategy: Strategy, sampler: Sampler, points: &[(u64, LogVariance)]) -> 
         slope: fit.map(|fit| fit.slope),
         interval: fit.map(|fit| fit.interval),
         regime: regime.map(str::to_owned),
+        candidates: fit.iter().flat_map(|fit| fit.candidates.names()).map(str::to_owned).collect(),
         why,
     }
 }

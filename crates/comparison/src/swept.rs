@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::strategy::{Strategy, Team, Weighting};
+use twoforms_estimator::technique::Kind;
 
 use crate::crossing::{Difference, Root, Sample, roots};
 use crate::exactly::{ExactLight, ExactResult, ExactVariance};
@@ -72,15 +73,13 @@ pub fn swept(
 
 /// The strategies of a sweep when nothing is said: the basic ones, and the balance heuristic.
 pub fn default_strategies() -> Vec<Strategy> {
-    use twoforms_estimator::selection::Selection::Together;
-    use twoforms_estimator::strategy::{Draw, Weighting};
     vec![
-        Strategy::Area(Draw::Uniform, Together),
-        Strategy::HemisphereCosine,
-        Strategy::HemisphereUniform,
-        Strategy::Area(Draw::SolidAngle, Together),
-        Strategy::Area(Draw::ProjectedSolidAngle, Together),
-        Strategy::Mis(Weighting::Balance),
+        Strategy::from(Kind::AreaUniform),
+        Strategy::from(Kind::HemisphereCosine),
+        Strategy::from(Kind::HemisphereUniform),
+        Strategy::from(Kind::AreaSolidAngle),
+        Strategy::from(Kind::AreaProjectedSolidAngle),
+        Strategy::Mis(Weighting::Balance, Team::default()),
     ]
 }
 

@@ -4,17 +4,24 @@
 //! Three files hold the subject: [`measure`], and the mirror images `formulation/hemisphere.rs` and
 //! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
 
+pub mod batch;
+mod combination;
 pub mod density;
+pub mod estimate;
 pub mod estimator;
 pub mod formulation;
+pub mod gauss;
 pub mod lights;
 pub mod measure;
 pub mod moments;
 pub mod nearest;
+pub mod numbers;
 mod philox;
 pub mod query;
 pub mod rgb;
 pub mod sampler;
+pub mod secondary;
 pub mod selection;
 pub mod strategy;
+pub mod technique;
 pub mod xi;

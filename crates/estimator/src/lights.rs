@@ -1,6 +1,10 @@
 //! The lights of a scene, as estimators need them.
 
+use twoforms_geometry::solid_angle::projected_solid_angle;
+use twoforms_geometry::view::View;
 use twoforms_scene::Scene;
+
+use crate::rgb::luminance;
 
 /// What is constant over each target: its area, its radiance, and the light it belongs to.
 #[derive(Clone, Debug)]
@@ -22,7 +26,7 @@ impl Lights {
             area: targets.iter().map(|target| target.area(&scene.mesh)).collect(),
             light: indices.map(|k| scene.light_of(k)).collect(),
             light_area: scene.lights.iter().map(|light| light.area).collect(),
-            power: scene.lights.iter().map(|light| crate::rgb::luminance(light.power())).collect(),
+            power: scene.lights.iter().map(|light| luminance(light.power())).collect(),
         }
     }
 
@@ -45,6 +49,24 @@ impl Lights {
     /// The light that each target belongs to.
     pub fn light_of_target(&self) -> &[usize] {
         &self.light
+    }
+
+    /// What each light's targets add up to.
+    pub fn sums(&self, of_targets: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.light_area.len()];
+        self.light.iter().zip(of_targets).for_each(|(&light, part)| sums[light] += part);
+        sums
+    }
+
+    /// ∫ cosθ_x dω over each target above the horizon, were nothing in between; zero for one that x does not face.
+    pub fn unoccluded(&self, view: &View) -> Vec<f64> {
+        (0..self.targets() as u32).map(|k| view.facing(k, projected_solid_angle).unwrap_or(0.0)).collect()
+    }
+
+    /// Luminance of the irradiance at x from each target, were nothing in between, in W/m².
+    pub fn contributions(&self, view: &View) -> Vec<f64> {
+        let received = |(open, radiance): (f64, &[f32; 3])| luminance(radiance.map(f64::from)) * open;
+        self.unoccluded(view).into_iter().zip(&self.radiance).map(received).collect()
     }
 
     /// Area of each light in square metres, once, whatever the sides.

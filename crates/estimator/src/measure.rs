@@ -43,6 +43,12 @@ pub trait Measure: sealed::Sealed + Copy + Debug {
     type Point<R: Real>: Copy;
     /// The differential, as formulas write it.
     const SYMBOL: &'static str;
+
+    /// The point of the domain at which x comes upon a point y of a light.
+    fn point<R: Real>(y: &SurfacePoint<R>, xy: &Segment<R>) -> Self::Point<R>;
+
+    /// The same density per solid angle, at a point of the domain where x comes upon y.
+    fn per_solid_angle<R: Real>(pdf: Pdf<Self, R>, xy: &Segment<R>) -> Pdf<SolidAngle, R>;
 }
 
 /// Solid angle at x: dω_Ψ, in steradian, over the hemisphere around N_x.
@@ -56,11 +62,33 @@ pub struct SurfaceArea;
 impl Measure for SolidAngle {
     type Point<R: Real> = Aim<R>;
     const SYMBOL: &'static str = "dω_Ψ";
+
+    /// Ψ from x to y.
+    #[inline(always)]
+    fn point<R: Real>(y: &SurfacePoint<R>, xy: &Segment<R>) -> Aim<R> {
+        Aim { psi: xy.psi, target: y.target, alone: true }
+    }
+
+    #[inline(always)]
+    fn per_solid_angle<R: Real>(pdf: Pdf<Self, R>, _: &Segment<R>) -> Pdf<SolidAngle, R> {
+        pdf
+    }
 }
 
 impl Measure for SurfaceArea {
     type Point<R: Real> = SurfacePoint<R>;
     const SYMBOL: &'static str = "dA_y";
+
+    /// y itself.
+    #[inline(always)]
+    fn point<R: Real>(y: &SurfacePoint<R>, _: &Segment<R>) -> SurfacePoint<R> {
+        *y
+    }
+
+    #[inline(always)]
+    fn per_solid_angle<R: Real>(pdf: Pdf<Self, R>, xy: &Segment<R>) -> Pdf<SolidAngle, R> {
+        pdf.per_solid_angle(xy)
+    }
 }
 
 /// A direction Ψ, and what it is aimed at.
@@ -72,8 +100,11 @@ impl Measure for SurfaceArea {
 pub struct Aim<R: Real> {
     /// Ψ.
     pub psi: Direction<R>,
-    /// The only target that counts, or [`ANYWHERE`].
+    /// The target that it is aimed at, or [`ANYWHERE`].
     pub target: R::Word,
+    /// Whether that target is the only one that counts. Where it is not, any light does; but of a direction that meets none,
+    /// being rounded beside a small light, the target still counts where nothing stands before it.
+    pub alone: bool,
 }
 
 /// Aimed at no target in particular: whatever light Ψ meets counts.
@@ -83,14 +114,24 @@ impl<R: Real> Aim<R> {
     /// A direction for which any light counts.
     #[inline(always)]
     pub fn anywhere(psi: Direction<R>) -> Self {
-        Self { psi, target: R::Word::splat(ANYWHERE) }
+        Self { psi, target: R::Word::splat(ANYWHERE), alone: false }
     }
 
     /// y = vp(x, Ψ); of a direction aimed at a target, only where y lies on it. A density aims all its samples or none.
     #[inline(always)]
     pub fn vp(&self, from: &Vantage<R>) -> Masked<SurfacePoint<R>, R> {
         let aimed = !R::same(self.target, R::Word::splat(ANYWHERE));
-        if aimed.any() { from.vp_on(self.target, self.psi) } else { from.vp(self.psi) }
+        if self.alone && aimed.any() {
+            return from.vp_on(self.target, self.psi);
+        }
+        let (y, found) = from.vp(self.psi).parts();
+        let missed = from.wanted() & aimed & !found;
+        if !missed.any() {
+            return Masked::new(y, found);
+        }
+        let target = R::select_word(aimed, self.target, R::Word::splat(0));
+        let (beside, seen) = from.only(missed).vp_on(target, self.psi).parts();
+        Masked::new(SurfacePoint::select(found, &y, &beside), found | (missed & seen))
     }
 }
 

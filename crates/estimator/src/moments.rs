@@ -34,6 +34,9 @@ impl Moments {
         if values.is_empty() {
             return Self::default();
         }
+        if values.len() < EIGHT {
+            return Self::few(values);
+        }
         let (whole, rest) = values.split_at(values.len() - values.len() % EIGHT);
         let n = values.len() as f64;
         let mut total = W::splat(0.0);
@@ -50,12 +53,29 @@ impl Moments {
             m4 = m4 + d2 * d2;
         }
         let mut moments = Self { n, mean, m2: m2.sum(), m3: m3.sum(), m4: m4.sum() };
-        for d in rest.iter().map(|value| value - mean) {
-            moments.m2 += d * d;
-            moments.m3 += d * d * d;
-            moments.m4 += (d * d) * (d * d);
-        }
+        moments.deviate(rest);
         moments
+    }
+
+    /// The same moments of fewer than eight values.
+    #[inline(always)]
+    fn few(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let mean = values.iter().fold(0.0, |sum, value| sum + value) / n;
+        let mut moments = Self { n, mean, ..Self::default() };
+        moments.deviate(values);
+        moments
+    }
+
+    /// Adds the deviations of some of the values from the mean.
+    #[inline(always)]
+    fn deviate(&mut self, values: &[f64]) {
+        for d in values.iter().map(|value| value - self.mean) {
+            let d2 = d * d;
+            self.m2 += d2;
+            self.m3 += d2 * d;
+            self.m4 += d2 * d2;
+        }
     }
 
     /// Σ(w − mean)²/(n − 1): the sample variance; `None` for fewer than two values.

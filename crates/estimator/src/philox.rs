@@ -2,7 +2,9 @@
 
 use twoforms_geometry::real::Word;
 
-/// The multipliers of a round.
+/// The multiplier of a round for two words.
+const M2: u32 = 0xD256_D193;
+/// The multipliers of a round for four.
 const M: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 /// What a round adds to the key: the golden ratio and √3 − 1, times 2³².
 const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
@@ -22,9 +24,28 @@ pub fn philox4x32_10<W: Word>(counter: [W; 4], key: [u32; 2]) -> [W; 4] {
     [a, b, c, d]
 }
 
+/// Two random words for each counter and key, by Philox 2×32-10 (of the same family and paper).
+#[inline(always)]
+pub fn philox2x32_10<W: Word>([mut a, mut b]: [W; 2], mut key: W) -> [W; 2] {
+    for _ in 0..ROUNDS {
+        let (high, low) = a.multiply_wide(M2);
+        [a, b] = [high ^ key ^ b, low];
+        key = key.wrapping_add(W::splat(WEYL[0]));
+    }
+    [a, b]
+}
+
 #[cfg(test)]
 mod tests {
-    use super::philox4x32_10;
+    use super::{philox2x32_10, philox4x32_10};
+
+    /// The known answers that the authors publish with their implementation (Random123, kat_vectors).
+    #[test]
+    fn two_words_are_those_of_the_known_answers() {
+        assert_eq!(philox2x32_10([0, 0], 0), [0xFF1D_AE59, 0x6CD1_0DF2]);
+        assert_eq!(philox2x32_10([u32::MAX, u32::MAX], u32::MAX), [0x2C3F_628B, 0xAB4F_D7AD]);
+        assert_eq!(philox2x32_10([0x243F_6A88, 0x85A3_08D3], 0x1319_8A2E), [0xDD7C_E038, 0xF62A_4C12]);
+    }
 
     #[test]
     fn words_are_those_of_the_reference_implementation() {

@@ -2,7 +2,9 @@
 
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
-use twoforms_geometry::segment::SurfacePoint;
+use twoforms_geometry::segment::{Segment, SurfacePoint};
+use twoforms_geometry::vector::Direction;
+use twoforms_geometry::view::View;
 
 use crate::lights::Lights;
 use crate::rgb::Rgb;
@@ -32,8 +34,32 @@ impl<'l> Query<'l> {
 
     /// f_r(x, Ψ↔Θ): the same for all directions on a Lambertian surface.
     #[inline(always)]
-    pub fn f_r<R: Real>(&self) -> Rgb<R> {
+    pub fn f_r<R: Real>(&self, _: Direction<R>) -> Rgb<R> {
         Rgb::splat(self.f_r)
+    }
+
+    /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x: what arrives from a point y that x sees, per solid angle.
+    #[inline(always)]
+    pub fn received<R: Real>(&self, y: &SurfacePoint<R>, xy: &Segment<R>) -> Rgb<R> {
+        self.l_e(Masked::all(*y)) * self.f_r(xy.psi) * xy.cos_x
+    }
+
+    /// Luminance of L_e(y→−Ψ) f_r(x, Ψ↔Θ) G(x, y): what y would contribute per area were nothing in between.
+    #[inline(always)]
+    pub fn unhidden<R: Real>(&self, y: &SurfacePoint<R>) -> R {
+        let xy = Segment::to(y);
+        let light = self.l_e(Masked::new(*y, xy.facing())) * self.f_r(xy.psi) * xy.g();
+        light.or_black(xy.facing()).luminance()
+    }
+
+    /// What x would receive were nothing in between: Σ_k L_k f_r ∫ cosθ_x dω over each target, RGB.
+    pub fn unoccluded(&self, view: &View) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (k, open) in self.lights.unoccluded(view).into_iter().enumerate() {
+            let l_e = self.lights.radiance(k as u32);
+            sum = std::array::from_fn(|c| sum[c] + open * f64::from(l_e[c]) * f64::from(self.f_r[c]));
+        }
+        sum
     }
 
     /// L_e(y→−Ψ), constant over a light; black where there is no y.

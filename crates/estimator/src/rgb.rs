@@ -1,6 +1,6 @@
 //! Linear RGB.
 
-use std::ops::Mul;
+use std::ops::{Add, Mul};
 
 use twoforms_geometry::real::Real;
 
@@ -16,11 +16,27 @@ impl<R: Real> Rgb<R> {
         Self([R::splat(r), R::splat(g), R::splat(b)])
     }
 
+    /// Luminance.
+    #[inline(always)]
+    pub fn luminance(self) -> R {
+        let Self([r, g, b]) = self;
+        let weight = |k: usize| R::splat(LUMINANCE[k] as f32);
+        r * weight(0) + g * weight(1) + b * weight(2)
+    }
+
     /// The colour where the mask holds, else black.
     #[inline(always)]
     pub fn or_black(self, mask: R::Mask) -> Self {
         let (Self([r, g, b]), black) = (self, R::zero());
         Self([R::select(mask, r, black), R::select(mask, g, black), R::select(mask, b, black)])
+    }
+}
+
+impl<R: Real> Add for Rgb<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, Self([r, g, b]): Self) -> Self {
+        Self([self.0[0] + r, self.0[1] + g, self.0[2] + b])
     }
 }
 

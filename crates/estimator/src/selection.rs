@@ -33,68 +33,63 @@ impl Selection {
     }
 }
 
-/// The probability of each target, up to a common factor: that of its light, then its share of the light's area. `None`
-/// where the probability depends on x.
-fn weights(selection: Selection, lights: &Lights) -> Option<Vec<f64>> {
-    let of_light = |light: usize| match selection {
-        Selection::Together => Some(lights.light_areas()[light]),
-        Selection::Uniform => Some(1.0),
-        Selection::Power => Some(lights.powers()[light]),
-        Selection::Contribution => None,
-    };
-    let targets = lights.light_of_target().iter().zip(lights.areas());
-    targets.map(|(&light, area)| Some(of_light(light)? * area / lights.light_areas()[light])).collect()
-}
-
-/// A discrete distribution over targets.
-pub trait Pick {
-    /// The target that a random word picks, and the word rescaled to a uniform number.
-    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R);
-    /// p_A over a target, in 1/m².
-    fn density<R: Real>(&self, target: R::Word) -> R;
-}
-
-/// The distribution over a single target. Nothing is looked up, so that all about the target is known before any sample:
-/// half the cost of one.
-#[derive(Clone, Copy, Debug)]
-pub struct Only {
-    density: f32,
-}
-
-impl Pick for Only {
-    #[inline(always)]
-    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
-        (R::Word::splat(0), unit(word))
+impl Selection {
+    /// Whether the probabilities depend on x.
+    pub fn depends_on_x(self) -> bool {
+        self == Self::Contribution
     }
 
-    #[inline(always)]
-    fn density<R: Real>(&self, _: R::Word) -> R {
-        R::splat(self.density)
+    /// The probability of each target, up to a common factor: that of its light, then its share of the light's `measure`;
+    /// and that of lights that have no measure.
+    /// `contributions` are the unoccluded irradiances of the targets at x, luminance, asked for where they count.
+    fn weights(self, lights: &Lights, measure: &[f64], contributions: impl FnOnce() -> Vec<f64>) -> (Vec<f64>, f64) {
+        let whole = lights.sums(measure);
+        let of_light = match self {
+            Self::Together => return (measure.to_vec(), 0.0),
+            Self::Uniform => vec![1.0; whole.len()],
+            Self::Power => lights.powers().to_vec(),
+            Self::Contribution => lights.sums(&contributions()),
+        };
+        let share = |(&light, &m): (&usize, &f64)| if m > 0.0 { of_light[light] * m / whole[light] } else { 0.0 };
+        let empty = of_light.iter().zip(&whole).filter(|&(_, &whole)| whole <= 0.0);
+        (lights.light_of_target().iter().zip(measure).map(share).collect(), empty.map(|(of_light, _)| of_light).sum())
     }
 }
 
-/// A discrete distribution over targets, drawn from by inversion of its CDF in scene order.
+/// A discrete distribution over targets, drawn from by inversion of its CDF in scene order. Where targets fall into pieces,
+/// a piece is drawn, in proportion to its part of the target's measure.
 ///
 /// Probabilities are whole multiples of 2⁻³², at least one for every target that has any, and the very same numbers
 /// serve as density, so nothing is lost to rounding: E\[f/p\] holds exactly.
 #[derive(Clone, Debug)]
 pub struct Picker {
-    /// The targets that have a probability, in scene order.
+    /// The pieces that have a probability, in scene order.
     shares: Vec<Share>,
     /// For each value of a word's leading bits, the share that the least such word picks: where a search begins (Chen and
     /// Asau 1974, "On generating random variates from an empirical distribution").
     guide: Vec<u32>,
     /// How many bits of a word do not lead.
     trailing: u32,
-    /// p_A of each target: its probability over its area, in 1/m².
+    /// The probability of each target over its measure.
     density: Vec<f32>,
+    /// The probability that a target is picked.
+    mass: f64,
 }
 
-/// The words that pick one target: from the first up to that of the next share.
+/// A part of a target that points are drawn on by a map of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// The target that it is part of.
+    pub target: u32,
+    /// How much of the measure it holds, in which points are uniform over it.
+    pub measure: f64,
+}
+
+/// The words that pick one piece: from the first up to that of the next share.
 #[derive(Clone, Copy, Debug)]
 struct Share {
     first: u32,
-    target: u32,
+    piece: u32,
     /// 1 / (number of words).
     scale: f32,
 }
@@ -104,26 +99,64 @@ const WORDS: u64 = 1 << 32;
 const FEW: usize = 16;
 
 impl Picker {
-    /// The distribution of `selection` over the targets of `lights`, of which there must be one; `None` where it depends
-    /// on x.
-    pub fn new(selection: Selection, lights: &Lights) -> Option<Self> {
-        let bounds = bounds(&weights(selection, lights)?);
+    /// The distribution of `selection` over the targets, points of a target being uniform in `measure`; it depends on x where
+    /// the measure or the selection does, which asks for `contributions` then.
+    pub fn new(
+        selection: Selection,
+        lights: &Lights,
+        measure: &[f64],
+        contributions: impl FnOnce() -> Vec<f64>,
+    ) -> Self {
+        let whole = |(k, &measure): (usize, &f64)| Piece { target: k as u32, measure };
+        Self::over(selection, lights, &measure.iter().enumerate().map(whole).collect::<Vec<_>>(), contributions)
+    }
+
+    /// The same over the pieces that the targets fall into, in scene order. Where a light is picked that has none, a piece
+    /// beyond the last is drawn.
+    pub fn over(
+        selection: Selection,
+        lights: &Lights,
+        pieces: &[Piece],
+        contributions: impl FnOnce() -> Vec<f64>,
+    ) -> Self {
+        let mut measure = vec![0.0; lights.targets()];
+        for piece in pieces {
+            measure[piece.target as usize] += piece.measure;
+        }
+        let (weights, empty) = selection.weights(lights, &measure, contributions);
+        Self::of(&weights, empty, &measure, pieces)
+    }
+
+    /// The distribution over the area of the targets, the same for every x; `None` where the selection depends on x.
+    pub fn of_area(selection: Selection, lights: &Lights) -> Option<Self> {
+        (!selection.depends_on_x()).then(|| Self::new(selection, lights, lights.areas(), Vec::new))
+    }
+
+    /// The distribution with these weights of targets, each being of this measure in all, and of nothing. Where no weight is
+    /// positive, the first piece is picked, whose target then has density zero.
+    fn of(weights: &[f64], nothing: f64, measure: &[f64], pieces: &[Piece]) -> Self {
+        let weight = |piece: &Piece| {
+            let target = piece.target as usize;
+            if piece.measure > 0.0 { weights[target] * (piece.measure / measure[target]) } else { 0.0 }
+        };
+        let bounds = bounds(&pieces.iter().map(weight).chain([nothing]).collect::<Vec<_>>());
         let width = |k: usize| bounds[k + 1] - bounds[k];
-        let density = lights.areas().iter().enumerate();
-        let density = density.map(|(k, area)| (width(k) as f64 / WORDS as f64 / area) as f32).collect();
+        let mut words = vec![0_u64; weights.len()];
+        pieces.iter().enumerate().for_each(|(k, piece)| words[piece.target as usize] += width(k));
+        let mass = words.iter().sum::<u64>() as f64 / WORDS as f64;
+        let of_words =
+            |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
+        let density = words.iter().zip(measure).map(of_words).collect();
         let share =
-            |k: usize| Share { first: bounds[k] as u32, target: k as u32, scale: (1.0 / width(k) as f64) as f32 };
-        let shares: Vec<Share> = (0..lights.targets()).filter(|&k| width(k) > 0).map(share).collect();
+            |k: usize| Share { first: bounds[k] as u32, piece: k as u32, scale: (1.0 / width(k) as f64) as f32 };
+        let mut shares: Vec<Share> = (0..=pieces.len()).filter(|&k| width(k) > 0).map(share).collect();
+        if shares.is_empty() {
+            shares.push(Share { first: 0, piece: 0, scale: 1.0 / WORDS as f32 });
+        }
         let leading = usize::BITS - shares.len().leading_zeros();
         let trailing = u32::BITS - leading;
         let first_of = |bits: u32| shares.partition_point(|share| share.first <= bits << trailing) as u32 - 1;
-        Some(Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density })
-    }
-
-    /// The distribution, if there is a single target.
-    pub fn only(&self) -> Option<Only> {
-        let [density] = self.density[..] else { return None };
-        Some(Only { density })
+        Self { guide: (0..1 << leading).map(first_of).collect(), trailing, shares, density, mass }
     }
 
     /// The share of a word, by trying them in order.
@@ -163,30 +196,43 @@ impl Picker {
     }
 
     #[inline(always)]
-    fn target<R: Real>(&self, share: R::Word) -> R::Word {
+    fn piece<R: Real>(&self, share: R::Word) -> R::Word {
         R::gather_word(
             share,
             #[inline(always)]
-            |k| self.shares[k as usize].target,
+            |k| self.shares[k as usize].piece,
         )
     }
 }
 
-impl Pick for Picker {
+impl Picker {
+    /// The piece that a random word picks, and the word rescaled to a uniform number. Targets that are whole are each a piece.
     #[inline(always)]
-    fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+    pub fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+        if let [only] = self.shares[..] {
+            return (R::Word::splat(only.piece), unit(word));
+        }
         let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
         let [scale] = R::gather(
             share,
             #[inline(always)]
             |k| [self.shares[k as usize].scale],
         );
-        let (first, target) = (self.first::<R>(share), self.target::<R>(share));
-        (target, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+        let (first, piece) = (self.first::<R>(share), self.piece::<R>(share));
+        (piece, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
     }
 
+    /// The probability that a target is picked: less than one where a light is picked that has none to be drawn on.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The probability of picking a target over its measure.
     #[inline(always)]
-    fn density<R: Real>(&self, target: R::Word) -> R {
+    pub fn density<R: Real>(&self, target: R::Word) -> R {
+        if let [only] = self.density[..] {
+            return R::splat(only);
+        }
         let [density] = R::gather(
             target,
             #[inline(always)]

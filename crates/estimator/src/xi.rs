@@ -1,13 +1,13 @@
-//! ξ: the random numbers of one sample, as a function of who asks.
+//! ξ: a pair of random numbers of one sample, and who asks for them.
 
 use rand_philox::splitmix64;
 use twoforms_geometry::real::{Real, Word};
 
-use crate::philox::philox4x32_10;
+use crate::numbers::ROOM;
 
 /// Who asks for random numbers. Two askers with different keys have independent numbers; the same key always has the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Key([u32; 2]);
+pub struct Key(pub(crate) [u32; 2]);
 
 impl Key {
     /// The key of a sequence of words, for instance the seed, the bits of a position, and the bytes of a name.
@@ -36,62 +36,21 @@ pub struct Draws {
     pub stream: [u32; 2],
 }
 
-/// Random words of some samples: for each dimension, one word a sample.
-pub type Words<const N: usize> = [[u32; N]; DIMENSIONS];
-
-/// Random numbers that one sample takes.
-pub const DIMENSIONS: usize = 2;
-
-/// A counter serves this many samples, and as many later ones.
-const RUN: usize = 16;
-
-impl Draws {
-    /// ξ of `n` samples or more from `first` on by independent draws; `first` and N are multiples of 32.
-    ///
-    /// Philox gives four words a counter, and a sample takes two of them: sample 32b + 16h + j has words 2h and 2h + 1 at
-    /// the counter (16b + j, block of dimensions, stream).
-    #[inline(always)]
-    pub fn independent<R: Real, const N: usize>(&self, first: u32, n: usize, words: &mut Words<N>) {
-        let [one, other] = self.stream;
-        for block in (0..n).step_by(2 * RUN) {
-            for k in (0..RUN).step_by(R::LANES) {
-                let index = first / 2 + (block / 2 + k) as u32;
-                let counter = [R::Word::counting(index), Word::splat(0), Word::splat(one), Word::splat(other)];
-                let [a, b, c, d] = philox4x32_10(counter, self.key.0);
-                let (now, later) = (block + k, block + RUN + k);
-                a.store(&mut words[0][now..]);
-                b.store(&mut words[1][now..]);
-                c.store(&mut words[0][later..]);
-                d.store(&mut words[1][later..]);
-            }
-        }
-    }
-}
-
 /// Two random words of one sample, reached by name.
 #[derive(Clone, Copy, Debug)]
 pub struct Xi<R: Real> {
-    words: [R::Word; DIMENSIONS],
+    words: [R::Word; 2],
 }
 
 impl<R: Real> Xi<R> {
     /// ξ of these words.
-    pub fn new(words: [R::Word; DIMENSIONS]) -> Self {
+    pub fn new(words: [R::Word; 2]) -> Self {
         Self { words }
-    }
-
-    /// ξ of one sample of each of many estimates by independent draws: those of [`Draws::independent`].
-    #[inline(always)]
-    pub fn independent(key: Key, [one, other]: [R::Word; 2], index: u32) -> Self {
-        const HALF: u32 = RUN as u32;
-        let counter = index / (2 * HALF) * HALF + index % HALF;
-        let [a, b, c, d] = philox4x32_10([Word::splat(counter), Word::splat(0), one, other], key.0);
-        Self { words: if (index / HALF).is_multiple_of(2) { [a, b] } else { [c, d] } }
     }
 
     /// ξ of the samples from `offset` on.
     #[inline(always)]
-    pub fn load<const N: usize>(words: &Words<N>, offset: usize) -> Self {
+    pub(crate) fn load(words: &[[u32; ROOM]; 2], offset: usize) -> Self {
         Self { words: [R::Word::load(&words[0][offset..]), R::Word::load(&words[1][offset..])] }
     }
 
@@ -114,7 +73,7 @@ impl<R: Real> Xi<R> {
     }
 
     /// The raw words.
-    pub fn words(&self) -> [R::Word; DIMENSIONS] {
+    pub fn words(&self) -> [R::Word; 2] {
         self.words
     }
 }

@@ -8,20 +8,18 @@ use std::time::Instant;
 
 use glam::{DQuat, DVec3};
 use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy, Weighting};
+use twoforms_estimator::strategy::{Strategy, Team, Weighting};
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_exact::{Facing, Light, Sight};
 
-const CLOSED: [Strategy; 10] = [
-    Strategy::HemisphereUniform,
-    Strategy::HemisphereCosine,
-    Strategy::HemisphereTowardLights(Selection::Together),
-    Strategy::Area(Draw::Uniform, Selection::Together),
-    Strategy::Area(Draw::Uniform, Selection::Uniform),
-    Strategy::Area(Draw::Uniform, Selection::Power),
-    Strategy::Area(Draw::Uniform, Selection::Contribution),
-    Strategy::Area(Draw::SolidAngle, Selection::Together),
-    Strategy::Area(Draw::ProjectedSolidAngle, Selection::Together),
-    Strategy::Area(Draw::ProjectedSolidAngle, Selection::Contribution),
+const CLOSED: &[Strategy] = &[
+    Strategy::Single(Technique::of(Kind::HemisphereUniform)),
+    Strategy::Single(Technique::of(Kind::HemisphereCosine)),
+    Strategy::Single(Technique::of(Kind::HemisphereTowardLights)),
+    Strategy::Single(Technique::of(Kind::AreaUniform)),
+    Strategy::Single(Technique { kind: Kind::AreaUniform, selection: Selection::Uniform }),
+    Strategy::Single(Technique { kind: Kind::AreaUniform, selection: Selection::Power }),
+    Strategy::Single(Technique { kind: Kind::AreaUniform, selection: Selection::Contribution }),
 ];
 
 fn main() {
@@ -48,16 +46,16 @@ fn room() {
         black_box(sight.irradiance());
     });
     per("  and ten closed variances", &|sight| {
-        black_box(sight.variances(&CLOSED));
+        black_box(sight.variances(CLOSED));
     });
     for weighting in [Weighting::Balance, Weighting::Power, Weighting::Optimal] {
-        let strategy = Strategy::Mis(weighting);
+        let strategy = Strategy::Mis(weighting, Team::default());
         per(&format!("irradiance and {strategy}"), &|sight| {
             black_box(sight.variance(strategy).ok());
         });
     }
     per("irradiance and mixture/0.5", &|sight| {
-        black_box(sight.variance(Strategy::Mixture(0.5)).ok());
+        black_box(sight.variance(Strategy::Mixture(0.5, Strategy::PAIR)).ok());
     });
 }
 

@@ -63,6 +63,9 @@ pub enum Error {
         /// Irradiance by edge sums.
         irradiance: f64,
     },
+    /// No formula is known here for the variance of this strategy.
+    #[error("no formula is known for its variance")]
+    NoFormula,
     /// The selection never picks a light that contributes, so the estimator has no finite variance
     /// about the irradiance.
     #[error("light {light} contributes but is never picked: choose another selection")]

@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::facing::{Facing, Light};
 use crate::sight::Sight;
 use crate::value::Value;
-use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 
 /// Variance of the mean of N = n × n samples of `area/uniform`, one in each cell of an n × n grid over (u, v).
 ///
@@ -66,7 +66,7 @@ fn variance_of_stratum(columns: &[Column], v: [f64; 2]) -> Result<Value, Error> 
     let parts: Vec<Facing> = columns.iter().map(|column| column.part(v)).collect();
     let area = parts.iter().map(|part| part.area).sum();
     let sight = Sight::new(&parts, &[Light { area, power: area }])?;
-    sight.variance(Strategy::Area(Draw::Uniform, Selection::Together))
+    sight.variance(Strategy::from(Kind::AreaUniform))
 }
 
 impl Column<'_> {

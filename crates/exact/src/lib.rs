@@ -38,3 +38,4 @@ pub use facing::{Facing, Light};
 pub use jittered::variance_of_jittered;
 pub use sight::Sight;
 pub use value::Value;
+pub use variance::{has_formula, with_formula};

@@ -118,6 +118,23 @@ impl Optimal {
     /// Variance of the pair's sum and its mean. On the facets F = L π p_h = L π ρ p_a; where a
     /// light's point is hidden only p_a is not zero, where a direction misses only p_h.
     pub fn outcome(&self, radiance: impl Fn(usize) -> f64) -> Outcome {
+        let (alpha, mean) = self.alpha(&radiance);
+        let [alpha_a, alpha_h] = alpha;
+        let mut outcome = Outcome {
+            mean,
+            mean_error: 16.0 * EPSILON * mean,
+            variance: alpha_a * alpha_a * self.area.0 + alpha_h * alpha_h * self.hemisphere.0,
+            error: alpha_a * alpha_a * self.area.1 + alpha_h * alpha_h * self.hemisphere.1,
+        };
+        for part in &self.law.parts {
+            outcome.add_residual(part, PI * radiance(part.seen) - alpha_h, alpha_a);
+        }
+        outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
+        outcome
+    }
+
+    /// α, [area, hemisphere], and the mean.
+    pub fn alpha(&self, radiance: impl Fn(usize) -> f64) -> ([f64; 2], f64) {
         let mut matrix = [self.area.0, 0.0, self.hemisphere.0];
         let mut b = [0.0; 2];
         let mut mean = 0.0;
@@ -131,18 +148,7 @@ impl Optimal {
             b[1] += l_pi * h_h;
             mean += l_pi * (a_h + h_h);
         }
-        let [alpha_a, alpha_h] = solve(matrix, b);
-        let mut outcome = Outcome {
-            mean,
-            mean_error: 16.0 * EPSILON * mean,
-            variance: alpha_a * alpha_a * self.area.0 + alpha_h * alpha_h * self.hemisphere.0,
-            error: alpha_a * alpha_a * self.area.1 + alpha_h * alpha_h * self.hemisphere.1,
-        };
-        for part in &self.law.parts {
-            outcome.add_residual(part, PI * radiance(part.seen) - alpha_h, alpha_a);
-        }
-        outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
-        outcome
+        (solve(matrix, b), mean)
     }
 }
 

@@ -9,7 +9,17 @@ use crate::sight::Sight;
 use crate::spread;
 use crate::value::EPSILON;
 use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::Draw;
+
+/// The measure in which points are uniform over the lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Draw {
+    /// Area, back-facing targets included.
+    Uniform,
+    /// Solid angle of the targets that face x, not clipped to the horizon.
+    SolidAngle,
+    /// Projected solid angle of the targets that face x, clipped to the horizon.
+    ProjectedSolidAngle,
+}
 
 /// Spreads by edge sums, or by cubature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

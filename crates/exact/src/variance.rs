@@ -6,18 +6,40 @@ use crate::error::Error;
 use crate::law::{Colours, Law, Outcome};
 use crate::mis::{self, Optimal};
 use crate::moments::Moments;
-use crate::picked::{self, Method};
+use crate::picked::{self, Draw, Method};
 use crate::seen::Seen;
 use crate::sight::Sight;
 use crate::value::{EPSILON, Value};
 use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy, Weighting};
+use twoforms_estimator::strategy::{Strategy, Team, Weighting};
+use twoforms_estimator::technique::{Kind, Technique};
 
 /// Relative error bound above which edge sums give way to cubature.
 const TOO_ROUGH: f64 = 1e-9;
 
 /// The channel of the luminance, after red, green and blue.
 const LUMINANCE: usize = 3;
+
+/// Whether the variance of a strategy is known here: by a closed form or by cubature.
+pub fn has_formula(strategy: Strategy) -> bool {
+    match strategy {
+        Strategy::Single(technique) => technique.kind != Kind::HemisphereTowardLightsMarginal,
+        Strategy::Mixture(share, [one, other]) => match share {
+            1.0 => has_formula(one.into()),
+            0.0 => has_formula(other.into()),
+            _ => [one, other] == Strategy::PAIR,
+        },
+        Strategy::Mis(weighting, team) => {
+            team == Team::default() && !matches!(weighting, Weighting::Cutoff | Weighting::Maximum)
+        }
+        Strategy::Resampled(_) | Strategy::Ratio | Strategy::ControlVariate => false,
+    }
+}
+
+/// All strategies whose variance is known here; combinations by some of their many names.
+pub fn with_formula() -> Vec<Strategy> {
+    Strategy::all().into_iter().filter(|&strategy| has_formula(strategy)).collect()
+}
 
 impl Sight {
     /// V = E\[w²\] − E² of one sample of a strategy (of one pair for `mis`).
@@ -27,18 +49,29 @@ impl Sight {
     /// picks a light that contributes.
     pub fn variance(&self, strategy: Strategy) -> Result<Value, Error> {
         match strategy {
-            Strategy::HemisphereUniform => {
-                Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2])))
+            Strategy::Single(technique) => self.of_technique(technique),
+            Strategy::Mixture(0.0, [_, technique]) | Strategy::Mixture(1.0, [technique, _]) => {
+                self.of_technique(technique)
             }
-            Strategy::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
-            Strategy::HemisphereTowardLights(selection) => self.over_lights(Draw::Uniform, selection),
-            Strategy::Area(draw, selection) => self.over_lights(draw, selection),
-            Strategy::Mixture(0.0) => self.over_lights(Draw::Uniform, Selection::Together),
-            Strategy::Mixture(1.0) => self.variance(Strategy::HemisphereCosine),
-            Strategy::Mixture(a) => self.sum_of_laws(&[mis::mixture(self, a)?]),
-            Strategy::Mis(Weighting::Balance) => self.sum_of_laws(&mis::balance(self)?),
-            Strategy::Mis(Weighting::Power) => self.sum_of_laws(&mis::power(self)?),
-            Strategy::Mis(Weighting::Optimal) => self.optimal(),
+            Strategy::Mixture(a, pair) if pair == Strategy::PAIR => self.sum_of_laws(&[mis::mixture(self, a)?]),
+            Strategy::Mis(weighting, team) if team == Team::default() => match weighting {
+                Weighting::Balance => self.sum_of_laws(&mis::balance(self)?),
+                Weighting::Power => self.sum_of_laws(&mis::power(self)?),
+                Weighting::Optimal => self.optimal(),
+                Weighting::Cutoff | Weighting::Maximum => Err(Error::NoFormula),
+            },
+            _ => Err(Error::NoFormula),
+        }
+    }
+
+    fn of_technique(&self, Technique { kind, selection }: Technique) -> Result<Value, Error> {
+        match kind {
+            Kind::HemisphereUniform => Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2]))),
+            Kind::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
+            Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
+            Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
+            Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
+            Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
         }
     }
 
@@ -94,6 +127,16 @@ impl Sight {
         };
         self.consistent(sum(LUMINANCE))?;
         Ok(Value::of_outcomes(sum))
+    }
+
+    /// α of `area/uniform` and `hemisphere/cosine` with the weights of least variance, RGB.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn optimal_alpha(&self) -> Result<[[f64; 3]; 2], Error> {
+        let (colours, optimal) = (self.colours(), Optimal::new(self)?);
+        let channels = [0, 1, 2].map(|channel| optimal.alpha(|seen| colours.0[seen][channel]).0);
+        Ok([0, 1].map(|technique| channels.map(|alpha| alpha[technique])))
     }
 
     fn optimal(&self) -> Result<Value, Error> {

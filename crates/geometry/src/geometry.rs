@@ -73,14 +73,20 @@ impl Geometry {
     }
 
     /// y = vp(x, Ψ): the first surface that the ray meets. Where an emitter is coplanar with it and the ray meets both,
-    /// the emitter.
+    /// the emitter. None too where the direction is not finite, or zero.
     #[inline]
     pub fn vp(&self, ray: &Ray) -> Option<Hit> {
+        if !ray.leads() {
+            return None;
+        }
         self.tracer.closest(&self.mesh, ray).map(|hit| self.emitter_or(ray, hit))
     }
 
     /// y = vp(x, Ψ) of each ray, as [`Self::vp`] gives them: sooner where neighbours run alike, as those of a camera do.
     pub fn vp_of(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if !rays.iter().all(Ray::leads) {
+            return rays.iter().zip(hits).for_each(|(ray, hit)| *hit = self.vp(ray));
+        }
         self.tracer.closest_of(&self.mesh, rays, hits);
         for (ray, hit) in rays.iter().zip(hits) {
             *hit = hit.map(|hit| self.emitter_or(ray, hit));
@@ -90,12 +96,12 @@ impl Geometry {
     /// V(x, y) for the point y at distance `before` along the ray from x, on target `target`: whether nothing that may
     /// block this target stands between.
     pub fn visible(&self, ray: &Ray, before: f64, target: u32) -> bool {
-        !self.tracer.any(&self.mesh, ray, before, |triangle| self.may_block(triangle, target))
+        !ray.leads() || !self.tracer.any(&self.mesh, ray, before, |triangle| self.may_block(triangle, target))
     }
 
     /// Whether the ray meets any surface at a distance below `before`.
     pub fn blocked(&self, ray: &Ray, before: f64) -> bool {
-        self.tracer.any(&self.mesh, ray, before, |_| true)
+        ray.leads() && self.tracer.any(&self.mesh, ray, before, |_| true)
     }
 
     /// Whether a triangle may stand between a target and what sees it: it is neither part of the target nor coplanar with it.

@@ -13,6 +13,7 @@ pub mod mesh;
 pub mod ray;
 pub mod real;
 pub mod segment;
+pub mod solid_angle;
 pub mod target;
 pub mod tracer;
 pub mod vector;

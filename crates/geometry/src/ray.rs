@@ -9,7 +9,7 @@ use crate::mesh::Triangle;
 pub struct Ray {
     /// Where it starts.
     pub origin: DVec3,
-    /// Where it goes; finite and not zero.
+    /// Where it goes; one that is not finite, or zero, meets nothing.
     pub direction: DVec3,
 }
 
@@ -31,9 +31,15 @@ impl Hit {
 }
 
 impl Ray {
-    /// A ray; the direction must be finite and not zero.
+    /// A ray.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         Self { origin, direction }
+    }
+
+    /// Whether it leads anywhere: its direction is finite and not zero.
+    #[inline(always)]
+    pub(crate) fn leads(&self) -> bool {
+        self.direction.is_finite() && self.direction != DVec3::ZERO
     }
 
     /// The point at distance `t`.

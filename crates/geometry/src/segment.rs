@@ -19,6 +19,22 @@ pub struct SurfacePoint<R: Real> {
     pub target: R::Word,
 }
 
+impl<R: Real> SurfacePoint<R> {
+    /// One point where the mask holds, else the other.
+    #[inline(always)]
+    pub fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        Self {
+            position: Vector::new(
+                R::select(mask, yes.position.x, no.position.x),
+                R::select(mask, yes.position.y, no.position.y),
+                R::select(mask, yes.position.z, no.position.z),
+            ),
+            depth: R::select(mask, yes.depth, no.depth),
+            target: R::select_word(mask, yes.target, no.target),
+        }
+    }
+}
+
 /// The segment from x to y.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment<R> {

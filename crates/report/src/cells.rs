@@ -6,8 +6,8 @@ use crate::layout::elided;
 use crate::number::{NONE, count, duration, percent, rounded, significant};
 
 /// Columns of a row: strategy, sampler and figures.
-pub(crate) const HEADER: [&str; 10] =
-    ["strategy", "sampler", "N", "mean", "variance", "exact", "ratio", "outside", "rays", "time"];
+pub(crate) const HEADER: [&str; 11] =
+    ["strategy", "sampler", "N", "mean", "error", "variance", "exact", "ratio", "outside", "rays", "time"];
 
 /// The rows' cells; a line that goes on with the strategy and sampler of the line above leaves them out. Names longer than
 /// `longest` are shortened.
@@ -25,11 +25,12 @@ pub(crate) fn named_once(receiver: &ReceiverResult, rows: &[&Row], longest: usiz
 }
 
 /// The figures of a row, from N on.
-fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 8] {
+fn figures(receiver: &ReceiverResult, row: &Row) -> [String; 9] {
     let or_none = |figure: Option<String>| figure.unwrap_or_else(|| NONE.to_owned());
     [
         row.samples.to_string(),
         significant(row.mean.luminance),
+        or_none(row.error.filter(|_| row.replicates == 1).map(significant)),
         or_none(row.variance_of_mean.map(significant)),
         or_none(row.variance_exact.or_else(|| known_variance(receiver, row)).map(significant)),
         or_none(ratio(row).or_else(|| longer_arm(row).map(|share| format!("± {}", percent(share))))),

@@ -9,6 +9,7 @@
 //! | `x`, `y`, `z`, `n_x`, `n_y`, `n_z` | position in metres and unit normal |
 //! | `strategy`, `sampler`, `samples`, `replicates` | what was run: N samples, R replicates |
 //! | `mean_r`, `mean_g`, `mean_b`, `mean_luminance` | mean over the replicates |
+//! | `error` | mean less the exact value, luminance |
 //! | `variance_of_mean`, `variance_lo`, `variance_hi` | variance of an N-sample estimate, its 95 % interval; luminance² |
 //! | `variance_exact` | the exact variance of an N-sample estimate |
 //! | `variance_ratio`, `variance_ratio_lo`, `variance_ratio_hi` | `variance_of_mean` / `variance_exact`, its 95 % interval |
@@ -28,7 +29,7 @@ use crate::document::Document;
 use crate::error::ReportError;
 
 /// The header.
-pub const COLUMNS: [&str; 31] = [
+pub const COLUMNS: [&str; 32] = [
     "receiver",
     "x",
     "y",
@@ -44,6 +45,7 @@ pub const COLUMNS: [&str; 31] = [
     "mean_g",
     "mean_b",
     "mean_luminance",
+    "error",
     "variance_of_mean",
     "variance_lo",
     "variance_hi",
@@ -96,12 +98,13 @@ fn record(receiver: &ReceiverResult, row: &Row) -> Vec<String> {
 }
 
 /// The numbers from `mean_luminance` on; NaN where there is no value.
-fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 17] {
+fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 18] {
     let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let [variance_lo, variance_hi] = row.variance_interval.unwrap_or([f64::NAN; 2]);
     let [ratio_lo, ratio_hi] = row.variance_ratio_interval.unwrap_or([f64::NAN; 2]);
     [
         row.mean.luminance,
+        or_nan(row.error),
         or_nan(row.variance_of_mean),
         variance_lo,
         variance_hi,

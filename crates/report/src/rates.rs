@@ -45,14 +45,14 @@ fn half_width(rates: &[&Rate]) -> Option<f64> {
     squares.map(|sum| sum.sqrt() / fitted.len() as f64)
 }
 
-/// `1/N`, or counted where there are several receivers: `1/N at 8 of 9 receivers`.
+/// `1/N`, `1/N^1.5 or 1/N^2` where that is undecided; counted where there are several receivers: `1/N at 8 of 9 receivers`.
 fn regimes(rates: &[&Rate]) -> String {
     let mut counts = BTreeMap::new();
-    for regime in rates.iter().filter_map(|rate| rate.regime.as_deref()) {
-        *counts.entry(regime).or_insert(0) += 1;
+    for candidates in rates.iter().map(|rate| rate.candidates.join(" or ")).filter(|names| !names.is_empty()) {
+        *counts.entry(candidates).or_insert(0) += 1;
     }
-    let named = |(regime, count): (&str, i32)| match rates.len() {
-        1 => regime.to_owned(),
+    let named = |(regime, count): (String, i32)| match rates.len() {
+        1 => regime,
         all => format!("{regime} at {count} of {all} receivers"),
     };
     let named: Vec<String> = counts.into_iter().map(named).collect();

@@ -24,7 +24,11 @@ struct Packed<'a> {
 impl Document<'_> {
     /// Reads accessor `index` as vectors of `N` finite numbers: binary32, or the `integers` that may stand for them.
     pub fn vectors<const N: usize>(&self, index: usize, integers: Integers) -> Result<Vec<[f32; N]>, Problem> {
-        let kind = if N == 3 { Type::Vec3 } else { Type::Vec4 };
+        let kind = match N {
+            2 => Type::Vec2,
+            3 => Type::Vec3,
+            _ => Type::Vec4,
+        };
         let packed = self.packed(index, kind)?;
         if !integers.allow(packed.component, packed.normalized) {
             return Err(malformed(place(index), format!("does not hold {integers}")));
@@ -133,6 +137,7 @@ fn place(index: usize) -> String {
 fn name(kind: Type) -> &'static str {
     match kind {
         Type::Scalar => "SCALAR",
+        Type::Vec2 => "VEC2",
         Type::Vec3 => "VEC3",
         _ => "VEC4",
     }

@@ -46,6 +46,7 @@ impl Assembly {
             vertices: vertices as u32..self.mesh.vertices.len() as u32,
             triangles: triangles as u32..self.mesh.triangles.len() as u32,
             normals: normals.flatten(),
+            attributes: local.attributes.clone(),
             material,
             light: None,
         });

@@ -53,14 +53,16 @@ fn read<'a>(
     }
 }
 
-fn decode(place: &str, uri: &str) -> Result<Vec<u8>, Problem> {
+/// The bytes of a data URI; messages are about `place`.
+pub(crate) fn decode(place: &str, uri: &str) -> Result<Vec<u8>, Problem> {
     let (_, data) =
         uri.split_once(";base64,").ok_or_else(|| malformed(place, "has a data URI that is not in base64"))?;
     STANDARD.decode(data).map_err(|error| malformed(place, format!("has broken base64 data ({error})")))
 }
 
-/// Reads no more than is declared, from nothing but a plain file: a device or a pipe might never end.
-fn read_file(place: &str, uri: &str, folder: &Path, declared: u64) -> Result<Vec<u8>, Problem> {
+/// Reads the file that `uri` names in `folder`, no more of it than is declared, and nothing but a plain file: a device or a
+/// pipe might never end.
+pub(crate) fn read_file(place: &str, uri: &str, folder: &Path, declared: u64) -> Result<Vec<u8>, Problem> {
     let name = file_name(place, uri)?;
     let path = folder.join(&name);
     let unreadable = |error: io::Error| Problem::Unreadable {

@@ -1,6 +1,6 @@
 //! The parsed file, checked before anything is read through it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf::json::validation::{Error as Fault, Validate};
 use gltf::json::{Path as JsonPath, Root};
@@ -24,6 +24,8 @@ pub(crate) struct Document<'a> {
     pub animated: bool,
     /// Whether attributes may be integers.
     pub quantized: bool,
+    /// Where files that it names are looked for.
+    pub folder: PathBuf,
     /// The buffers by index.
     pub buffers: Vec<Buffer<'a>>,
 }
@@ -62,7 +64,7 @@ impl<'a> Document<'a> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let buffers = buffer::read_all(&root, container.blob, folder)?;
         let quantized = extensions::uses(&root, extensions::QUANTIZATION);
-        Ok(Self { root, placements, animated: !animations.is_empty(), quantized, buffers })
+        Ok(Self { root, placements, animated: !animations.is_empty(), quantized, folder: folder.into(), buffers })
     }
 
     /// What messages call node `index`: its name, else its place in the file.
@@ -121,7 +123,7 @@ fn check_positions(root: &Root) -> Result<(), Problem> {
     Ok(())
 }
 
-/// What the validation calls the parts of a file that are not read.
+/// What the validation calls the parts of a file that are not read, or whose faults count only where a surface shows them.
 const UNREAD: [&str; 6] = ["animations", "extensions", "images", "samplers", "skins", "textures"];
 
 /// Whether a fault is one here. Bounds of accessors and attributes of other names are not read, and required extensions

@@ -24,10 +24,10 @@ impl SceneError {
 /// What is wrong with a scene file, each with its remedy.
 #[derive(Debug, Error)]
 pub enum Problem {
-    /// A file that cannot be read: the scene itself or a buffer that it names.
+    /// A file that cannot be read: the scene itself, or a buffer or image that it names.
     #[error("cannot read {what}: {reason}; check the name and the permissions")]
     Unreadable {
-        /// "the file", or the buffer and the file that it names.
+        /// "the file", or the buffer or image and the file that it names.
         what: String,
         /// The system's answer.
         reason: String,
@@ -58,6 +58,14 @@ pub enum Problem {
         place: String,
         /// The largest number of vertices, and of triangles.
         limit: usize,
+    },
+    /// A light whose texture cannot be used, and why.
+    #[error("material {material:?} emits by a texture that cannot be used: {problem}")]
+    Emission {
+        /// The material's name.
+        material: String,
+        /// What is wrong with the texture.
+        problem: Box<Problem>,
     },
     /// There is no light. The text says what stands in its place, if anything.
     #[error("no triangle emits light{0}; give a mesh, such as a plane, a material with emissiveFactor above zero")]

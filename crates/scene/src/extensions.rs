@@ -36,7 +36,7 @@ const IGNORED: [(&str, &str); 10] = [
 
 const GLOSS: &str = "surfaces are diffuse";
 const OPAQUE: &str = "surfaces are opaque";
-const IMAGES: &str = "no texture is read";
+const IMAGES: &str = "images other than PNG and JPEG are not read";
 
 /// Compression: refused where a file requires it.
 const COMPRESSION: [&str; 2] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];

@@ -3,45 +3,68 @@
 //! [`Scene::load`] is the way in. What it reads, warns about and refuses:
 //!
 //! - **Read**: triangles of every mode, indexed or not; node transforms; meshes used by several nodes and
-//!   `EXT_mesh_gpu_instancing`; `KHR_mesh_quantization`; sparse accessors; `KHR_materials_emissive_strength`.
-//! - **Read otherwise, with a line in [`Scene::warnings`]**: textures, alpha, vertex colours, metals and unlit materials (black),
+//!   `EXT_mesh_gpu_instancing`; `KHR_mesh_quantization`; sparse accessors; `KHR_materials_emissive_strength`; textures of
+//!   base colour, metallic and roughness, and emission, from PNG and JPEG, with all wraps, any set of coordinates and
+//!   `KHR_texture_transform`; vertex colours; alpha modes. Textures are looked up at points, nearest or bilinearly as
+//!   `magFilter` says: there are no reduced images. What a surface is at a point is [`Scene::appearance_at`], what leaves
+//!   a target [`Scene::target_emission`].
+//! - **Read otherwise, with a line in [`Scene::warnings`]**: metals and unlit materials (black as [`Scene::albedo`] has
+//!   them, which also takes no notice of textures, vertex colours and alpha), textures that cannot be used, normal maps,
 //!   punctual lights, points and lines, skins, morph targets and animations.
 //! - **Refused, with a [`SceneError`]**: whatever would make a light or a surface other than the file means it: broken
-//!   buffers and indices, NaN, compressed meshes, textures on emitters, unknown required extensions.
+//!   buffers and indices, NaN, compressed meshes, broken textures on emitters, unknown required extensions.
 
 mod accessor;
 mod allowances;
+mod appearance;
 mod assembly;
+mod attributes;
 mod buffer;
 mod camera;
 mod coincident;
 mod container;
+mod decode;
 mod document;
+mod emission;
 mod error;
 mod extensions;
+mod footprint;
+mod glow;
 mod hierarchy;
+mod image;
 mod instances;
 mod light;
 mod limit;
 mod load;
 mod lookup;
 mod lost;
+mod mapping;
 mod material;
 mod nodes;
 mod numbers;
 mod pairing;
 mod primitive;
 mod receiver;
+mod sampler;
 mod scene;
 mod surface;
+mod texture;
+mod textures;
 mod transform;
 mod view;
 mod warnings;
 
+pub use appearance::Appearance;
+pub use attributes::Attributes;
 pub use camera::Camera;
+pub use emission::{Emission, Pattern};
 pub use error::{Problem, SceneError};
+pub use image::{Encoding, Image};
 pub use light::Light;
-pub use material::Material;
+pub use mapping::Mapping;
+pub use material::{Alpha, Material};
 pub use receiver::{KnownAnswer, Receiver};
+pub use sampler::{Filter, Sampler, Wrap};
 pub use scene::Scene;
 pub use surface::Surface;
+pub use texture::Texture;

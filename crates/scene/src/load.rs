@@ -9,8 +9,10 @@ use crate::buffer::read_plain;
 use crate::document::Document;
 use crate::error::Problem;
 use crate::light::Lights;
+use crate::material::Materials;
 use crate::nodes::assemble;
 use crate::scene::Scene;
+use crate::textures::Gathered;
 use crate::warnings::Warnings;
 use crate::{camera, extensions, hierarchy, light, lost, material, receiver};
 
@@ -26,21 +28,23 @@ pub(crate) fn from_bytes(bytes: &[u8], path: &Path) -> Result<Scene, Problem> {
     if document.animated {
         warnings.say("animations are ignored: nodes stand in their rest pose");
     }
-    let mut scene = read(&document, &mut warnings)?;
+    let (mut scene, files) = read(&document, &mut warnings)?;
     path.clone_into(&mut scene.path);
-    scene.sha256 = digest(bytes, &document);
+    scene.sha256 = digest(bytes, &document, &files);
     scene.warnings = warnings.lines();
     Ok(scene)
 }
 
-fn read(document: &Document<'_>, warnings: &mut Warnings) -> Result<Scene, Problem> {
+/// The scene and the bytes of the image files that were read.
+fn read(document: &Document<'_>, warnings: &mut Warnings) -> Result<(Scene, Vec<Vec<u8>>), Problem> {
     let placed = hierarchy::placed(document, warnings)?;
     let Assembly { mesh, mut surfaces } = assemble(document, &placed, warnings)?;
-    let materials = material::read(&document.root, &surfaces, warnings)?;
-    light::refuse_textured(&document.root, &surfaces, &materials)?;
-    let Lights { targets, lights } = light::find(&mesh, &mut surfaces, &materials, warnings);
+    let Materials { materials, gathered } = material::read(document, &surfaces, warnings)?;
+    let Gathered { textures, images, files } = gathered;
+    let shown = (materials.as_slice(), textures.as_slice());
+    let Lights { targets, lights } = light::find(&mesh, &mut surfaces, shown, warnings)?;
     let receivers = receiver::read(document, &placed, warnings)?;
-    Ok(Scene {
+    let scene = Scene {
         cameras: camera::read(document, &placed, warnings)?,
         punctual_lights: lost::punctual(document, &placed, warnings),
         lost_lights: lost::empty(document, &placed, &receivers, warnings),
@@ -48,18 +52,24 @@ fn read(document: &Document<'_>, warnings: &mut Warnings) -> Result<Scene, Probl
         mesh: mesh.into(),
         surfaces,
         materials,
+        textures,
+        images,
         targets,
         lights,
         ..Scene::default()
-    })
+    };
+    Ok((scene, files))
 }
 
-/// SHA-256 of the file and of the buffer files after it.
-fn digest(bytes: &[u8], document: &Document<'_>) -> String {
+/// SHA-256 of the file, of the buffer files after it, and of the image files after those.
+fn digest(bytes: &[u8], document: &Document<'_>, images: &[Vec<u8>]) -> String {
     let mut digest = Sha256::new();
     digest.update(bytes);
     for buffer in document.buffers.iter().filter(|buffer| buffer.external) {
         digest.update(buffer.bytes.as_deref().unwrap_or_default());
+    }
+    for image in images {
+        digest.update(image);
     }
     digest.finalize().iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
 }

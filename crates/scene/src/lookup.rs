@@ -18,7 +18,7 @@ impl Scene {
         &self.materials[self.surface_of(triangle).material]
     }
 
-    /// The diffuse albedo (linear RGB) of `triangle`.
+    /// The diffuse albedo (linear RGB) of `triangle` by the factors of its material: all of it where [`Scene::is_uniform`].
     pub fn albedo(&self, triangle: u32) -> [f32; 3] {
         self.material_of(triangle).albedo
     }
@@ -33,9 +33,11 @@ impl Scene {
         &self.lights[self.light_of(target)]
     }
 
-    /// The radiance (linear RGB) that leaves `target` on its emitting sides.
+    /// The radiance (linear RGB) that leaves `target` on its emitting sides; of a textured one its mean over the area.
     pub fn target_radiance(&self, target: u32) -> [f32; 3] {
-        self.target_light(target).radiance
+        let light = self.target_light(target);
+        let mean = light.means.get((target - light.targets.start) as usize);
+        mean.map_or(light.radiance, |mean| mean.map(|channel| channel as f32))
     }
 
     /// Checks that there is a light, for commands that need one.
@@ -47,6 +49,23 @@ impl Scene {
             return Ok(());
         }
         let problem = Problem::NoEmitter(self.lost_lights_clause() + &self.punctual_clause());
+        Err(SceneError::at(&self.path, problem))
+    }
+
+    /// Checks that every light has one radiance, for commands that take it to be so.
+    ///
+    /// # Errors
+    /// [`Problem::Unsupported`], which names the first light that emits by a texture.
+    pub fn require_constant_emission(&self) -> Result<(), SceneError> {
+        let Some(light) = self.lights.iter().find(|light| light.is_textured()) else {
+            return Ok(());
+        };
+        let triangle = self.targets[light.targets.start as usize].first();
+        let (material, name) = (&self.material_of(triangle).name, &light.name);
+        let problem = Problem::Unsupported {
+            what: format!("material {material:?} of {name:?} emits by an emissiveTexture, which is not sampled"),
+            remedy: "give it a constant emissiveFactor without the texture".into(),
+        };
         Err(SceneError::at(&self.path, problem))
     }
 

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gltf::json::mesh::{Primitive, Semantic};
-use gltf::json::validation::Checked::Valid;
+use gltf::json::mesh::Primitive;
 
 use crate::assembly::{Assembly, Instance};
 use crate::document::Document;
@@ -77,13 +76,13 @@ impl Walk<'_> {
     /// Reads a primitive that has triangles; warns about what is left out of it.
     fn read(&mut self, primitive: &Primitive, place: &str, name: &str) -> Result<Option<Local>, Problem> {
         self.budget.spend(1, 1, name)?;
-        let Some(local) = primitive::read(self.document, primitive, place)? else {
+        let Some(local) = primitive::read(self.document, primitive, (place, name), self.warnings)? else {
             self.warnings.at("points and lines have no area and are skipped", name);
             return Ok(None);
         };
         let morphs = primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
         let losses = [
-            (primitive.attributes.contains_key(&Valid(Semantic::Colors(0))), "vertex colours are ignored"),
+            (local.attributes.as_ref().is_some_and(|a| a.is_coloured()), "vertex colours are ignored"),
             (morphs, "morph targets are ignored"),
             (local.rest > 0, "vertices that make no whole triangle are left over"),
         ];

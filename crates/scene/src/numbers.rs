@@ -14,6 +14,8 @@ pub(crate) enum Integers {
     Small,
     /// Signed, of 8 and 16 bits, normalised.
     Normalized,
+    /// Unsigned, of 8 and 16 bits, normalised.
+    Unsigned,
 }
 
 impl Integers {
@@ -22,7 +24,7 @@ impl Integers {
         match component {
             F32 => true,
             I8 | I16 => matches!(self, Self::Small) || matches!(self, Self::Normalized) && normalized,
-            U8 | U16 => matches!(self, Self::Small),
+            U8 | U16 => matches!(self, Self::Small) || matches!(self, Self::Unsigned) && normalized,
             U32 => false,
         }
     }
@@ -34,6 +36,7 @@ impl Display for Integers {
             Self::Refused => "binary32",
             Self::Small => "binary32 or integers of 8 or 16 bits",
             Self::Normalized => "binary32 or normalized signed integers of 8 or 16 bits",
+            Self::Unsigned => "binary32 or normalized unsigned integers of 8 or 16 bits",
         })
     }
 }

@@ -1,25 +1,35 @@
 //! Primitives: one mesh's triangles with one material, in local space.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked::Valid;
 
+use crate::attributes::{self, Attributes, Subject};
 use crate::document::Document;
 use crate::error::{Problem, malformed};
 use crate::numbers::Integers;
+use crate::warnings::Warnings;
 
 /// The triangles of a primitive as the file gives them.
 pub(crate) struct Local {
     pub positions: Vec<Vec3>,
     /// One per position, where the file gives them.
     pub normals: Option<Vec<Vec3>>,
+    pub attributes: Option<Arc<Attributes>>,
     pub triangles: Vec<[u32; 3]>,
     /// Vertices left over after the last whole triangle.
     pub rest: usize,
 }
 
-/// Reads the triangles of `primitive`; `None` for points and lines.
-pub(crate) fn read(document: &Document<'_>, primitive: &Primitive, place: &str) -> Result<Option<Local>, Problem> {
+/// Reads the triangles of `primitive`, which stands at `place` and is called `name`; `None` for points and lines.
+pub(crate) fn read(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    (place, name): (&str, &str),
+    warnings: &mut Warnings,
+) -> Result<Option<Local>, Problem> {
     let Valid(mode) = primitive.mode else {
         return Err(malformed(place, "has a mode that glTF does not know"));
     };
@@ -30,9 +40,11 @@ pub(crate) fn read(document: &Document<'_>, primitive: &Primitive, place: &str) 
     let accessor = accessor.ok_or_else(|| malformed(place, "has no POSITION"))?.value();
     let positions = positions(document, accessor)?;
     let normals = normals(document, primitive, positions.len())?;
+    let subject = Subject { place, name, count: positions.len() };
+    let attributes = attributes::read(document, primitive, subject, warnings)?.map(Arc::new);
     let order = order(document, primitive, positions.len())?;
     let rest = if mode == Mode::Triangles { order.len() % 3 } else { 0 };
-    Ok(Some(Local { positions, normals, triangles: triangles(mode, &order), rest }))
+    Ok(Some(Local { positions, normals, attributes, triangles: triangles(mode, &order), rest }))
 }
 
 fn positions(document: &Document<'_>, accessor: usize) -> Result<Vec<Vec3>, Problem> {

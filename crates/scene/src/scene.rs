@@ -8,18 +8,21 @@ use twoforms_geometry::target::Target;
 
 use crate::camera::Camera;
 use crate::error::SceneError;
+use crate::image::Image;
 use crate::light::Light;
 use crate::load;
 use crate::material::Material;
 use crate::receiver::Receiver;
 use crate::surface::Surface;
+use crate::texture::Texture;
 
 /// A scene in world space: metres, radiance as the file gives it (for glTF, cd/m²; any unit proportional to it serves).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// The file it was read from.
     pub path: PathBuf,
-    /// SHA-256 in hexadecimal of the file, followed by the buffer files that it names, in order.
+    /// SHA-256 in hexadecimal of the file, followed by the buffer files that it names, in order, and by the image files
+    /// that were read, in order.
     pub sha256: String,
     /// All triangles. Vertices that a primitive shares stay shared. Counted, since the hierarchy holds it too.
     pub mesh: Arc<Mesh>,
@@ -28,6 +31,10 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// Materials in file order, then glTF's default material where a surface has none.
     pub materials: Vec<Material>,
+    /// What materials show, each image with its sampler and encoding once.
+    pub textures: Vec<Texture>,
+    /// The images of the textures, in file order.
+    pub images: Vec<Arc<Image>>,
     /// The pieces of all lights in scene order, those of one light together.
     pub targets: Vec<Target>,
     /// The lights in scene order.
@@ -45,18 +52,18 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a `.gltf` (buffers in data URIs or files beside it) or `.glb` file.
+    /// Reads a `.gltf` (buffers and images in data URIs or files beside it) or `.glb` file.
     ///
     /// # Errors
     /// When the file cannot be read, is not glTF 2.0, breaks its rules where that matters here, or needs what is not
-    /// read (compressed meshes, textures on emitters, unknown required extensions). A scene without a light is no error:
+    /// read (compressed meshes, emission by images other than PNG and JPEG, unknown required extensions). A scene without a light is no error:
     /// see [`Scene::require_emitters`].
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         load::from_file(path).map_err(|problem| SceneError::at(path, problem))
     }
 
-    /// Reads glTF from `bytes`, text or binary, as if it were the file `path`: messages carry that name, and buffer
-    /// files are looked for beside it.
+    /// Reads glTF from `bytes`, text or binary, as if it were the file `path`: messages carry that name, and
+    /// buffer and image files are looked for beside it.
     ///
     /// # Errors
     /// As [`Scene::load`].

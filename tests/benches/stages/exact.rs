@@ -2,7 +2,8 @@
 
 use criterion::Criterion;
 use twoforms_comparison::exactly;
-use twoforms_estimator::strategy::{Strategy, Weighting};
+use twoforms_comparison::exactly::with_formula;
+use twoforms_estimator::strategy::{Strategy, Team, Weighting};
 use twoforms_tests::worlds;
 
 use crate::clock::CpuTime;
@@ -11,10 +12,10 @@ use crate::{SCENE, cases};
 /// The irradiance alone, the variances that have a closed form, and one that needs cubature.
 pub fn benches(criterion: &mut Criterion<CpuTime>) {
     let stage = worlds::stage(SCENE);
-    let all = Strategy::with_exact_variance();
+    let all = with_formula();
     let closed: Vec<Strategy> =
-        all.into_iter().filter(|s| !matches!(s, Strategy::Mis(_) | Strategy::Mixture(_))).collect();
-    let balance = [Strategy::Mis(Weighting::Balance)];
+        all.into_iter().filter(|s| !matches!(s, Strategy::Mis(..) | Strategy::Mixture(..))).collect();
+    let balance = [Strategy::Mis(Weighting::Balance, Team::default())];
     let works: [(&str, &[Strategy]); 3] =
         [("irradiance", &[]), ("and closed variances", &closed), ("and mis/balance", &balance)];
     let mut group = criterion.benchmark_group("exact");

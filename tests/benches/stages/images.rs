@@ -3,8 +3,8 @@
 use criterion::{Criterion, Throughput};
 use twoforms_comparison::image::{Crop, PixelFilter, Rendering};
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Strategy};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 use twoforms_tests::worlds;
 
 use crate::SCENE;
@@ -19,7 +19,7 @@ const TILES: [(&str, [u32; 2]); 2] = [("floor", [224, 448]), ("shadow", [160, 41
 /// Many camera samples with one light sample each, and few with many.
 pub fn benches(criterion: &mut Criterion<CpuTime>) {
     let world = worlds::stage(SCENE).world;
-    let strategies = [Strategy::Area(Draw::Uniform, Selection::Together), Strategy::HemisphereCosine];
+    let strategies = [Strategy::from(Kind::AreaUniform), Strategy::from(Kind::HemisphereCosine)];
     let mut group = criterion.benchmark_group("image");
     for strategy in strategies {
         for (name, corner) in TILES {

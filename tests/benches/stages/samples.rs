@@ -1,13 +1,13 @@
 //! What one sample costs at a receiver, of every strategy that can be sampled.
 
 use criterion::{BenchmarkGroup, Criterion, Throughput};
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimate, Estimator};
-use twoforms_estimator::formulation::Formulation;
+use twoforms_estimator::estimate::Estimate;
+use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::{Draw, Kernel, Strategy};
+use twoforms_estimator::secondary::secondary_by;
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
 use twoforms_geometry::view::{Effort, View};
@@ -20,19 +20,13 @@ use crate::{SCENE, cases};
 const N: u32 = 1024;
 
 /// One from each formulation, measured with all instructions that the machine has.
-const BY_ALL: [Strategy; 2] = [Strategy::Area(Draw::Uniform, Selection::Together), Strategy::HemisphereCosine];
+const BY_ALL: [Technique; 2] = [Technique::of(Kind::AreaUniform), Technique::of(Kind::HemisphereCosine)];
 
 /// An estimate of N samples.
-struct Secondary(Instructions);
-
-impl Kernel for Secondary {
-    type Output = Estimate;
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) -> Estimate {
-        let draws = Draws { key: Key::new([0]), stream: [N, 0] };
-        let stream = Stream { sampler: Sampler::Independent, draws };
-        estimator.secondary_by(self.0, N, stream).expect("finite samples")
-    }
+fn estimate(estimator: &dyn Estimator, instructions: Instructions) -> Estimate {
+    let draws = Draws { key: Key::new([0]), stream: [N, 0] };
+    let stream = Stream { sampler: Sampler::Independent, draws, n: N };
+    secondary_by(estimator, instructions, stream, 0..N).expect("finite samples")
 }
 
 /// Every strategy at each receiver; some by other instructions too.
@@ -49,7 +43,7 @@ pub fn benches(criterion: &mut Criterion<CpuTime>) {
     for strategy in BY_ALL {
         let mut group = group(criterion, &format!("instructions/{strategy}"));
         for instructions in Instructions::all() {
-            bench(&mut group, &name(instructions), &case, strategy, instructions);
+            bench(&mut group, &instructions.to_string(), &case, strategy.into(), instructions);
         }
         group.finish();
     }
@@ -68,13 +62,8 @@ fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instruc
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let query = Query::irradiance(&world.lights);
-    let prepared = strategy.prepare(&world.lights).expect("a strategy that can be sampled");
-    group.bench_function(name, |bencher| bencher.iter(|| prepared.run(&view, &query, Secondary(instructions))));
-}
-
-/// Scalar, or the name of the vector instructions.
-fn name(instructions: Instructions) -> String {
-    let text = format!("{instructions:?}").to_lowercase();
-    let mut words = text.split(|c: char| !c.is_alphanumeric());
-    words.find(|word| !["instructions", "lanes"].contains(word)).unwrap_or_default().to_owned()
+    let known = twoforms_tests::samples::known(case);
+    let prepared = strategy.prepare(&world.lights);
+    let estimator = prepared.at(&view, &query, &known);
+    group.bench_function(name, |bencher| bencher.iter(|| estimate(&*estimator, instructions)));
 }

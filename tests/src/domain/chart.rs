@@ -60,7 +60,7 @@ impl Chart {
 
     /// The direction to a local position, aimed at this target.
     pub fn aim(&self, position: DVec3) -> Aim<f32> {
-        Aim { psi: Direction::of(Vector::from(round(position.normalize())), 1.0), target: self.index }
+        Aim { psi: Direction::of(Vector::from(round(position.normalize())), 1.0), target: self.index, alone: true }
     }
 
     /// Where a direction meets the target's plane.
@@ -77,7 +77,20 @@ impl Chart {
 
     /// Area in square metres of the part that faces x: above x's horizon, if x is on a side that emits.
     pub fn facing_area(&self) -> f64 {
-        if self.depth > 0.0 { fan_area(&above_horizon(&self.corners)) } else { 0.0 }
+        if self.depth > 0.0 { self.open_area() } else { 0.0 }
+    }
+
+    /// The same whichever side it shows; zero where x lies in its plane.
+    pub fn open_area(&self) -> f64 {
+        if self.depth == 0.0 { 0.0 } else { fan_area(&above_horizon(&self.corners)) }
+    }
+
+    /// How far beside the target a direction passes, in its coordinates; at most zero where it meets it.
+    pub fn miss(&self, psi: Direction<f32>) -> f64 {
+        let at = self.along(psi);
+        let ahead = at.dot(DVec3::from_array(psi.vector().to_array().map(f64::from))) > 0.0;
+        let miss = self.coordinates(at).into_iter().map(|c| (-c).max(c - 1.0)).fold(f64::NEG_INFINITY, f64::max);
+        if ahead && self.depth != 0.0 && miss.is_finite() { miss } else { f64::INFINITY }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 use twoforms_estimator::measure::{Aim, SolidAngle, SurfaceArea};
-use twoforms_estimator::selection::{Pick, Picker};
+use twoforms_estimator::selection::Picker;
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::View;
 
 use super::chart::{Chart, fan_area, fan_solid_angle};
-use super::{Domain, Patch};
+use super::{Domain, HemisphereCells, Patch};
 
 /// Cells along each side of a target.
 const CELLS: usize = 8;
@@ -19,13 +19,20 @@ const FINE: usize = 8;
 pub struct LightCells<'p> {
     charts: Vec<Chart>,
     picker: &'p Picker,
+    resolution: f64,
 }
 
 impl<'p> LightCells<'p> {
     /// The targets as `view` meets them, picked by `picker`.
     pub fn new(view: &View, picker: &'p Picker) -> Self {
         let targets = 0..view.geometry().targets().len() as u32;
-        Self { charts: targets.map(|k| Chart::new(view, k)).collect(), picker }
+        Self { charts: targets.map(|k| Chart::new(view, k)).collect(), picker, resolution: 1e-6 }
+    }
+
+    /// The same for a density that varies over a target, and ends where it meets the horizon: what patches that are wide as x
+    /// sees them, or cut by the horizon, may add.
+    pub fn varying(view: &View, picker: &'p Picker) -> Self {
+        Self { resolution: 5e-3, ..Self::new(view, picker) }
     }
 
     fn cell(&self, target: u32, point: DVec3) -> usize {
@@ -75,13 +82,13 @@ impl Domain<SurfaceArea> for LightCells<'_> {
         Vec::new()
     }
 
-    /// A point is always drawn, whether it faces x or not.
+    /// A point is drawn, whether it faces x or not, where a target is picked.
     fn mass(&self) -> f64 {
-        1.0
+        self.picker.mass()
     }
 
     fn resolution(&self) -> f64 {
-        1e-6
+        self.resolution
     }
 }
 
@@ -122,5 +129,61 @@ impl Domain<SolidAngle> for LightCells<'_> {
     /// What a patch cut by the horizon, or one that is wide as x sees it, may add.
     fn resolution(&self) -> f64 {
         2e-3
+    }
+}
+
+/// Directions in which some target lies, by the first that does: for a density that asks them all.
+#[derive(Clone, Debug)]
+pub struct LitDirections<'p>(LightCells<'p>);
+
+/// How far beside a target, in its coordinates, a direction counts as toward it.
+const BESIDE: f64 = 1e-6;
+
+impl<'p> LitDirections<'p> {
+    /// The targets as `view` meets them, picked by `picker`.
+    pub fn new(view: &View, picker: &'p Picker) -> Self {
+        Self(LightCells::new(view, picker))
+    }
+
+    /// The first target along a direction, or else the one that it misses by least.
+    fn first(&self, aim: &Aim<f32>) -> &Chart {
+        let miss = |chart: &&Chart| {
+            let miss = chart.miss(aim.psi);
+            if miss <= BESIDE { 0.0 } else { miss }
+        };
+        let nearest = self.0.charts.iter().min_by(|one, other| miss(one).total_cmp(&miss(other)));
+        nearest.expect("a light")
+    }
+}
+
+impl Domain<SolidAngle> for LitDirections<'_> {
+    fn cells(&self) -> usize {
+        Domain::<SolidAngle>::cells(&self.0)
+    }
+
+    fn cell_of(&self, aim: &Aim<f32>) -> usize {
+        let chart = self.first(aim);
+        self.0.cell(chart.index(), chart.along(aim.psi))
+    }
+
+    fn patches(&self) -> Vec<Patch<Aim<f32>>> {
+        let mut patches = Domain::<SolidAngle>::patches(&self.0);
+        patches.retain(|patch| self.first(&patch.at).index() == patch.at.target);
+        patches.into_iter().map(|patch| Patch { at: Aim::anywhere(patch.at.psi), ..patch }).collect()
+    }
+
+    /// Below the horizon.
+    fn beyond(&self) -> Vec<Aim<f32>> {
+        HemisphereCells.beyond()
+    }
+
+    /// The probability that the point drawn lies above the horizon and off x's plane.
+    fn mass(&self) -> f64 {
+        let mass = |chart: &Chart| f64::from(self.0.picker.density::<f32>(chart.index())) * chart.open_area();
+        self.0.charts.iter().map(mass).sum()
+    }
+
+    fn resolution(&self) -> f64 {
+        5e-3
     }
 }

@@ -11,7 +11,7 @@ mod lights;
 pub use chart::Chart;
 pub use counts::{chi_square, value};
 pub use hemisphere::HemisphereCells;
-pub use lights::LightCells;
+pub use lights::{LightCells, LitDirections};
 
 use twoforms_estimator::measure::Measure;
 

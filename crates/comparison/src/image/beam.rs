@@ -1,20 +1,18 @@
 //! Beams: the samples of a tile share what the eye sees through it, and what each surface there sees of the lights.
 
 use glam::DVec3;
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::{Estimator, NotFinite};
-use twoforms_estimator::formulation::Formulation;
-use twoforms_estimator::moments::Moments;
-use twoforms_estimator::strategy::Kernel;
+use twoforms_estimator::estimate::NotFinite;
+use twoforms_estimator::strategy::Known;
 use twoforms_geometry::frame::Frame;
-use twoforms_geometry::lanes::{self, Instructions};
-use twoforms_geometry::real::Real;
-use twoforms_geometry::vector::{Vector, round};
-use twoforms_geometry::view::{Pane, View, Vista};
+use twoforms_geometry::lanes;
+use twoforms_geometry::vector::round;
+use twoforms_geometry::view::{View, Vista};
 
-use super::chunk::{self, Chunk, LightSamples, Look, Piece, Receive};
+use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Sum};
+use super::face::Face;
 use super::painter::{Painter, Surface};
-use super::{Centre, Crop, Pixel, PixelFilter};
+use super::receive::Receive;
+use super::{Centre, Crop, Pixel, PixelFilter, tile};
 use crate::error::BrokenPixel;
 use crate::world::Seen;
 
@@ -24,6 +22,8 @@ pub(super) struct Beam<'a> {
     tile: Crop,
     eye: Frame,
     vista: Vista,
+    /// The face of each pane of the vista.
+    faces: Vec<Face>,
     /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
     axes: [DVec3; 3],
 }
@@ -41,13 +41,6 @@ struct Lit<'a> {
     along: [[f32; 3]; 2],
 }
 
-/// What the samples of one pixel come to so far.
-#[derive(Clone, Default)]
-struct Sum {
-    channels: [Moments; 3],
-    rays: u64,
-}
-
 impl<'a> Beam<'a> {
     /// The beam through a tile; none where too much is seen through it.
     pub(super) fn new(painter: &'a Painter<'a>, tile: Crop) -> Option<Self> {
@@ -58,27 +51,35 @@ impl<'a> Beam<'a> {
         let vista = Vista::new(&painter.world.geometry, &eye, &corners)?;
         let side = f64::from(tile.width());
         let axes = [corners[0], (corners[1] - corners[0]) / side, (corners[3] - corners[0]) / side];
-        Some(Self { painter, tile, eye, vista, axes })
+        let faces = vista.panes().iter().map(|pane| Face::new(painter.world, eye.x(), pane.triangle)).collect();
+        Some(Self { painter, tile, eye, vista, faces, axes })
     }
 
-    /// The pixels of the tile that lie `inside`, row by row.
-    pub(super) fn pixels(&self, inside: Crop) -> Result<Vec<Pixel>, BrokenPixel> {
+    /// The pixels of the tile that lie `inside`, row by row; `chunk` is room to work in.
+    pub(super) fn pixels(&self, inside: Crop, chunk: &mut Chunk) -> Result<Vec<Pixel>, BrokenPixel> {
         let places: Vec<[u32; 2]> = inside.pixels().collect();
-        let mut stages: Vec<Option<Stage>> = self.vista.panes().iter().map(|_| None).collect();
+        let centres = self.centres(&places, chunk);
+        let sums = self.sums(&places, chunk)?;
+        Ok(sums.into_iter().zip(centres).map(|(sum, centre)| Pixel::new(sum.channels, sum.rays, centre)).collect())
+    }
+
+    /// What the camera samples of each pixel come to.
+    fn sums(&self, places: &[[u32; 2]], chunk: &mut Chunk) -> Result<Vec<Sum>, BrokenPixel> {
+        let mut stages: Vec<Option<Stage>> = self.faces.iter().map(|_| None).collect();
         let mut sums = vec![Sum::default(); places.len()];
-        let (mut chunk, spp) = (Chunk::new(), self.painter.rendering.spp);
+        let spp = self.painter.rendering.spp;
+        chunk.clear();
         for (pixel, &[x, y]) in places.iter().enumerate() {
             for first in (0..spp).step_by(chunk::SIZE) {
                 let samples = first..spp.min(first.saturating_add(chunk::SIZE as u32));
                 if !chunk.has_room(samples.len()) {
-                    self.evaluate(&mut chunk, &mut stages, &places, &mut sums)?;
+                    self.evaluate(chunk, &mut stages, places, &mut sums)?;
                 }
                 chunk.push(pixel, samples, self.painter.index(x, y), [x - self.tile.x0, y - self.tile.y0]);
             }
         }
-        self.evaluate(&mut chunk, &mut stages, &places, &mut sums)?;
-        let pixel = |(&[x, y], sum): (&[u32; 2], &Sum)| Pixel::new(sum.channels, sum.rays, self.centre(x, y));
-        Ok(places.iter().zip(&sums).map(pixel).collect())
+        self.evaluate(chunk, &mut stages, places, &mut sums)?;
+        Ok(sums)
     }
 
     /// Evaluates the samples of a chunk, adds them to the pixels' sums, and empties it.
@@ -90,18 +91,14 @@ impl<'a> Beam<'a> {
         sums: &mut [Sum],
     ) -> Result<(), BrokenPixel> {
         let spread = self.painter.rendering.filter == PixelFilter::Box;
-        let key = self.painter.camera_key;
-        lanes::run(Look { chunk, vista: &self.vista, axes: self.axes.map(round), key, spread });
+        lanes::run(Aim { chunk, axes: self.axes.map(round), samples: self.painter.camera_samples(), spread });
+        lanes::run(Look { chunk, vista: &self.vista });
         for pane in chunk.panes() {
-            let stage = stages[pane as usize].get_or_insert_with(|| self.stage(&self.vista.panes()[pane as usize]));
+            let stage = stages[pane as usize].get_or_insert_with(|| self.stage(pane as usize));
             self.light(chunk, stage, pane).map_err(|(k, source)| self.broken(chunk, places, k, source))?;
         }
-        for piece in &chunk.pieces {
-            let [x, y] = places[piece.pixel];
-            let finite = lanes::run(AddPiece { chunk, piece, sum: &mut sums[piece.pixel] });
-            if !finite {
-                return Err(self.not_finite([x, y], chunk, piece));
-            }
+        if let Some(piece) = lanes::run(AddUp { chunk, sums }) {
+            return Err(self.not_finite(places[piece.pixel], chunk, piece));
         }
         chunk.clear();
         Ok(())
@@ -116,50 +113,52 @@ impl<'a> Beam<'a> {
             }
         }
         let Some(query) = &stage.surface.query else { return Ok(()) };
-        let rendering = self.painter.rendering;
         if let Some(Lit { view, along }) = &stage.lit {
-            let light =
-                LightSamples { sampler: rendering.sampler, key: self.painter.light_key, n: rendering.light_samples };
-            self.painter.prepared.run(view, query, Lighting { chunk, light, pane, along: *along });
+            let light = self.painter.light_samples();
+            let estimator = self.painter.prepared.at(view, query, &Known::default());
+            Receive { estimator: &*estimator, light, pane, along: *along }.all(chunk);
             return Ok(());
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
-            let toward = DVec3::from_array(chunk.toward(k).map(f64::from));
-            let seen = self.seen(&self.vista.panes()[pane as usize], toward);
+            let seen = self.seen(pane as usize, DVec3::from_array(chunk.toward(k).map(f64::from)));
             let (value, rays) = self.painter.receive(&seen, query, chunk.stream(k)).map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
         Ok(())
     }
 
-    fn stage(&self, pane: &Pane) -> Stage<'a> {
+    fn stage(&self, index: usize) -> Stage<'a> {
+        let pane = &self.vista.panes()[index];
         let centroid = pane.outline.iter().sum::<DVec3>() / pane.outline.len() as f64;
-        let seen = self.seen(pane, centroid);
+        let seen = self.seen(index, centroid);
         let frame = Frame::new(seen.position, seen.normal);
         let local = |&corner: &DVec3| frame.localize(self.eye.x() + self.eye.to_world(corner)).with_z(0.0);
         let footprint: Vec<DVec3> = pane.outline.iter().map(local).collect();
         let x = self.eye.localize(seen.position);
         let along = [DVec3::X, DVec3::Y].map(|axis| pane.coordinate(self.eye.to_local(frame.to_world(axis)), x));
-        let view = View::over(&self.painter.world.geometry, frame, &footprint);
+        let shared = !self.painter.prepared.depends_on_x();
+        let view = shared.then(|| View::over(&self.painter.world.geometry, frame, &footprint)).flatten();
         Stage { surface: self.painter.surface(&seen), lit: view.map(|view| Lit { view, along }) }
     }
 
-    /// The point of a pane's triangle in a direction from the eye, in its frame.
-    fn seen(&self, pane: &Pane, toward: DVec3) -> Seen {
-        let triangle = self.painter.world.geometry.mesh().triangle(pane.triangle);
-        let (cross, toward) = (triangle.cross().normalize(), self.eye.to_world(toward));
-        let distance = cross.dot(triangle.a.as_dvec3() - self.eye.x()) / cross.dot(toward);
-        let front = cross.dot(toward) < 0.0;
-        let normal = if front { cross } else { -cross };
-        Seen { position: self.eye.x() + toward * distance, normal, distance, triangle: pane.triangle, front }
+    /// The point of a pane's plane in a direction from the eye, in its frame.
+    fn seen(&self, pane: usize, toward: DVec3) -> Seen {
+        self.faces[pane].seen(self.eye.to_world(toward))
     }
 
-    fn centre(&self, x: u32, y: u32) -> Option<Centre> {
+    /// What lies at the centres of pixels.
+    fn centres(&self, places: &[[u32; 2]], chunk: &mut Chunk) -> Vec<Option<Centre>> {
+        const { assert!((tile::SIDE * tile::SIDE) as usize <= chunk::SIZE) };
+        let toward: Vec<DVec3> = places.iter().map(|&place| self.toward_centre(place)).collect();
+        chunk.aim(&toward);
+        lanes::run(Look { chunk, vista: &self.vista });
+        let centre = |(k, &toward)| Some(self.painter.centre_of(&self.seen(chunk.pane(k)?, toward)));
+        toward.iter().enumerate().map(centre).collect()
+    }
+
+    fn toward_centre(&self, [x, y]: [u32; 2]) -> DVec3 {
         let [first, right, down] = self.axes;
-        let (right_by, down_by) = (f64::from(x - self.tile.x0) + 0.5, f64::from(y - self.tile.y0) + 0.5);
-        let toward = first + right * right_by + down * down_by;
-        let (glimpse, some) = self.vista.look(Vector::from(round(toward))).parts();
-        some.then(|| self.painter.centre_of(&self.seen(&self.vista.panes()[glimpse.pane as usize], toward)))
+        first + right * (f64::from(x - self.tile.x0) + 0.5) + down * (f64::from(y - self.tile.y0) + 0.5)
     }
 
     fn broken(&self, chunk: &Chunk, places: &[[u32; 2]], k: usize, source: NotFinite) -> BrokenPixel {
@@ -179,53 +178,14 @@ impl<'a> Beam<'a> {
     /// The light sample that is not finite, found one by one; if it is finite there, the camera sample's value, beside the
     /// random words of its first light sample.
     fn source_of(&self, chunk: &Chunk, k: usize) -> NotFinite {
-        let pane = self.vista.panes().get(chunk.pane(k) as usize);
-        let one_by_one = pane.and_then(|pane| {
+        let one_by_one = chunk.pane(k).and_then(|pane| {
             let seen = self.seen(pane, DVec3::from_array(chunk.toward(k).map(f64::from)));
             self.painter.receive(&seen, &self.painter.surface(&seen).query?, chunk.stream(k)).err()
         });
         one_by_one.unwrap_or_else(|| NotFinite {
             index: 0,
             value: chunk.value.each_ref().map(|channel| channel[k] as f32),
-            words: self.painter.light_stream(chunk.stream(k)).xi(0).words(),
+            words: self.painter.words(chunk.stream(k)),
         })
-    }
-}
-
-/// Adds the camera samples of a piece to what their pixel comes to; says whether all is finite.
-struct AddPiece<'c> {
-    chunk: &'c Chunk,
-    piece: &'c Piece,
-    sum: &'c mut Sum,
-}
-
-impl lanes::Kernel for AddPiece<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<R: Real>(self) -> bool {
-        let places = self.piece.places();
-        for c in 0..3 {
-            self.sum.channels[c] = self.sum.channels[c] + Moments::by::<R::Wide>(&self.chunk.value[c][places.clone()]);
-        }
-        self.sum.rays += self.chunk.rays(places.clone()) + places.len() as u64;
-        self.sum.channels.iter().all(|moments| moments.mean.is_finite())
-    }
-}
-
-/// [`Receive`] with its estimator yet to be chosen.
-struct Lighting<'c> {
-    chunk: &'c mut Chunk,
-    light: LightSamples,
-    pane: u32,
-    along: [[f32; 3]; 2],
-}
-
-impl Kernel for Lighting<'_> {
-    type Output = ();
-
-    fn run<F: Formulation, D: Density<F::Measure>>(self, estimator: &Estimator<F, D>) {
-        let Self { chunk, light, pane, along } = self;
-        Instructions::best().run(Receive { chunk, estimator, light, pane, along });
     }
 }

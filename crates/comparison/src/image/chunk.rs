@@ -2,22 +2,21 @@
 
 use std::ops::Range;
 
-use twoforms_estimator::density::Density;
-use twoforms_estimator::estimator::Estimator;
-use twoforms_estimator::formulation::Formulation;
-use twoforms_estimator::rgb::Rgb;
-use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::xi::Key;
+use glam::DVec3;
+use twoforms_estimator::moments::Moments;
+use twoforms_estimator::numbers::Numbers;
+use twoforms_estimator::sampler::{ROW, Row};
 use twoforms_geometry::lanes::Kernel;
-use twoforms_geometry::real::{Mask, Real, Word};
-use twoforms_geometry::vector::Vector;
+use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::vector::{Vector, round};
 use twoforms_geometry::view::Vista;
-use twoforms_geometry::wide::{EIGHT, Wide};
+
+use super::samples::Samples;
 
 /// Camera samples that go together.
 pub(super) const SIZE: usize = 512;
 /// The pane of a sample that meets nothing.
-pub(super) const NOTHING: u32 = u32::MAX;
+const NOTHING: u32 = u32::MAX;
 
 /// Some camera samples of a tile. Arrays have one entry a sample.
 pub(super) struct Chunk {
@@ -36,7 +35,7 @@ pub(super) struct Chunk {
     /// Mean of the light samples, RGB.
     pub(super) value: [[f64; SIZE]; 3],
     /// Rays asked for by light samples.
-    rays: [u32; SIZE],
+    pub(super) rays: [u32; SIZE],
 }
 
 /// Consecutive camera samples of one pixel.
@@ -86,6 +85,15 @@ impl Chunk {
         self.len + more <= SIZE
     }
 
+    /// Holds directions from the eye, in its frame, of so many samples: as many as there is room for at most.
+    pub(super) fn aim(&mut self, directions: &[DVec3]) {
+        self.clear();
+        self.len = directions.len();
+        for (k, &direction) in directions.iter().enumerate() {
+            [self.toward[0][k], self.toward[1][k], self.toward[2][k]] = round(direction);
+        }
+    }
+
     /// Adds camera samples of a pixel with this number in the image and this corner in the tile.
     pub(super) fn push(&mut self, pixel: usize, samples: Range<u32>, number: u32, [x, y]: [u32; 2]) {
         let piece = Piece { pixel, samples, start: self.len };
@@ -100,10 +108,12 @@ impl Chunk {
     /// The panes that are met, once each.
     pub(super) fn panes(&self) -> Vec<u32> {
         let mut met: Vec<u32> = Vec::new();
+        let mut last = NOTHING;
         for &pane in &self.pane[..self.len] {
-            if pane != NOTHING && !met.contains(&pane) {
+            if pane != last && pane != NOTHING && !met.contains(&pane) {
                 met.push(pane);
             }
+            last = pane;
         }
         met
     }
@@ -119,13 +129,25 @@ impl Chunk {
     }
 
     /// The pane that a sample meets.
-    pub(super) fn pane(&self, k: usize) -> u32 {
-        self.pane[k]
+    pub(super) fn pane(&self, k: usize) -> Option<usize> {
+        (self.pane[k] != NOTHING).then_some(self.pane[k] as usize)
     }
 
     /// The stream of a sample.
     pub(super) fn stream(&self, k: usize) -> [u32; 2] {
         [self.streams[0][k], self.streams[1][k]]
+    }
+
+    /// Which random numbers the camera samples from `k` on take: each pixel has a stream, and its samples follow each other
+    /// in it.
+    #[inline(always)]
+    fn row(&self, k: usize, samples: &Samples) -> Row {
+        let (mut streams, mut first) = ([[0; ROW]; 2], [0; ROW]);
+        for lane in 0..ROW.min(SIZE - k) {
+            streams[0][lane] = self.streams[0][k + lane];
+            first[lane] = self.streams[1][k + lane] * samples.each;
+        }
+        Row { key: samples.key, n: samples.spp * samples.each, streams, first }
     }
 
     /// Adds to the value of a sample, RGB, and to its rays.
@@ -136,21 +158,62 @@ impl Chunk {
         self.rays[k] += rays;
     }
 
+    /// How many camera samples there are.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Directions of the samples from `k` on, in the frame of the eye, and 1/t to the surfaces along them.
+    #[inline(always)]
+    pub(super) fn direction<R: Real>(&self, k: usize) -> (Vector<R>, R) {
+        let [x, y, z] = self.toward.each_ref();
+        (Vector::new(R::load(&x[k..]), R::load(&y[k..]), R::load(&z[k..])), R::load(&self.per_t[k..]))
+    }
+
     /// Rays asked for by the light samples of some camera samples.
     pub(super) fn rays(&self, places: Range<usize>) -> u64 {
         self.rays[places].iter().map(|&rays| u64::from(rays)).sum()
     }
 }
 
-/// Where the camera samples look, and what they meet.
+/// Where the camera samples look.
+pub(super) struct Aim<'c> {
+    pub(super) chunk: &'c mut Chunk,
+    /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
+    pub(super) axes: [[f32; 3]; 3],
+    pub(super) samples: Samples,
+    /// Whether samples are spread over the pixel.
+    pub(super) spread: bool,
+}
+
+impl Kernel for Aim<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let [first, right, down] = self.axes;
+        let chunk = self.chunk;
+        let (samples, mut numbers) = (&self.samples, Numbers::new(1));
+        for k in (0..chunk.len).step_by(R::LANES) {
+            let [dx, dy] = if self.spread {
+                samples.fill(&chunk.row(k, samples), &mut numbers);
+                numbers.from(0).xi::<R>(0).uv()
+            } else {
+                [R::splat(0.5), R::splat(0.5)]
+            };
+            let (x, y) = (R::load(&chunk.corner[0][k..]) + dx, R::load(&chunk.corner[1][k..]) + dy);
+            let toward = Vector::<R>::splat(first) + Vector::splat(right) * x + Vector::splat(down) * y;
+            toward.x.store(&mut chunk.toward[0][k..]);
+            toward.y.store(&mut chunk.toward[1][k..]);
+            toward.z.store(&mut chunk.toward[2][k..]);
+        }
+    }
+}
+
+/// What is met in the directions of a chunk.
 pub(super) struct Look<'c> {
     pub(super) chunk: &'c mut Chunk,
     pub(super) vista: &'c Vista,
-    /// Direction through the tile's first corner, and what a pixel to the right and a pixel down add to it.
-    pub(super) axes: [[f32; 3]; 3],
-    pub(super) key: Key,
-    /// Whether samples are spread over the pixel.
-    pub(super) spread: bool,
 }
 
 impl Kernel for Look<'_> {
@@ -158,88 +221,48 @@ impl Kernel for Look<'_> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let [first, right, down] = self.axes;
-        let chunk = self.chunk;
+        let Self { chunk, vista } = self;
         for k in (0..chunk.len).step_by(R::LANES) {
-            let streams = [R::Word::load(&chunk.streams[0][k..]), R::Word::load(&chunk.streams[1][k..])];
-            let [dx, dy] = if self.spread {
-                Sampler::Independent.across::<R>(self.key, streams, 0).uv()
-            } else {
-                [R::splat(0.5), R::splat(0.5)]
-            };
-            let (x, y) = (R::load(&chunk.corner[0][k..]) + dx, R::load(&chunk.corner[1][k..]) + dy);
-            let toward = Vector::<R>::splat(first) + Vector::splat(right) * x + Vector::splat(down) * y;
-            let (glimpse, some) = self.vista.look(toward).parts();
-            toward.x.store(&mut chunk.toward[0][k..]);
-            toward.y.store(&mut chunk.toward[1][k..]);
-            toward.z.store(&mut chunk.toward[2][k..]);
+            let [x, y, z] = chunk.toward.each_ref();
+            let (glimpse, some) = vista.look(Vector::new(R::load(&x[k..]), R::load(&y[k..]), R::load(&z[k..]))).parts();
             glimpse.per_t.store(&mut chunk.per_t[k..]);
             R::select_word(some, glimpse.pane, R::Word::splat(NOTHING)).store(&mut chunk.pane[k..]);
         }
     }
 }
 
-/// The light samples of the camera samples that meet one pane, from where they meet it.
-pub(super) struct Receive<'c, 'a, F, D> {
-    pub(super) chunk: &'c mut Chunk,
-    pub(super) estimator: &'c Estimator<'a, F, D>,
-    pub(super) light: LightSamples,
-    pub(super) pane: u32,
-    /// The vectors that give the coordinates of a point of the pane from its direction.
-    pub(super) along: [[f32; 3]; 2],
+/// Adds the camera samples of each piece to what their pixels come to; answers with the first piece whose value is not
+/// finite.
+pub(super) struct AddUp<'c> {
+    pub(super) chunk: &'c Chunk,
+    pub(super) sums: &'c mut [Sum],
 }
 
-/// How lights are sampled at each camera sample.
-#[derive(Clone, Copy)]
-pub(super) struct LightSamples {
-    pub(super) sampler: Sampler,
-    pub(super) key: Key,
-    pub(super) n: u32,
+/// What the samples of one pixel come to so far.
+#[derive(Clone, Default)]
+pub(super) struct Sum {
+    /// Of the values, RGB.
+    pub(super) channels: [Moments; 3],
+    /// Rays asked for.
+    pub(super) rays: u64,
 }
 
-/// Numbers side by side, at most.
-const ROOM: usize = 2 * EIGHT;
-
-impl<F: Formulation, D: Density<F::Measure>> Kernel for Receive<'_, '_, F, D> {
-    type Output = ();
+impl<'c> Kernel for AddUp<'c> {
+    type Output = Option<&'c Piece>;
 
     #[inline(always)]
-    fn run<R: Real>(self) {
-        let Self { chunk, estimator, light, pane, along: [u, v] } = self;
-        let share = R::Wide::splat(1.0 / f64::from(light.n));
-        for k in (0..chunk.len).step_by(R::LANES) {
-            let inside = R::below(R::Word::counting(k as u32), R::Word::splat(chunk.len as u32));
-            let wanted = inside & R::same(R::Word::load(&chunk.pane[k..]), R::Word::splat(pane));
-            if !wanted.any() {
-                continue;
-            }
-            let [x, y, z] =
-                [R::load(&chunk.toward[0][k..]), R::load(&chunk.toward[1][k..]), R::load(&chunk.toward[2][k..])];
-            let (toward, t) = (Vector::new(x, y, z), R::one() / R::load(&chunk.per_t[k..]));
-            let start = Vector::new(Vector::splat(u).dot(toward) * t, Vector::splat(v).dot(toward) * t, R::zero());
-            let from = estimator.view().from_points(start).only(wanted);
-            let streams = [R::Word::load(&chunk.streams[0][k..]), R::Word::load(&chunk.streams[1][k..])];
-            let mut sums = [[R::Wide::splat(0.0); 2]; 3];
-            let mut rays = R::Word::load(&chunk.rays[k..]);
-            for index in 0..light.n {
-                let xi = light.sampler.across::<R>(light.key, streams, index);
-                let (Rgb(worth), ray) = estimator.primary(&from, xi);
-                rays = rays.wrapping_add(R::select_word(ray, R::Word::splat(1), R::Word::splat(0)));
-                for c in 0..3 {
-                    let [low, high] = worth[c].widen();
-                    sums[c] = [sums[c][0] + low, sums[c][1] + high];
-                }
-            }
-            rays.store(&mut chunk.rays[k..]);
+    fn run<R: Real>(self) -> Option<&'c Piece> {
+        let Self { chunk, sums } = self;
+        for piece in &chunk.pieces {
+            let (sum, places) = (&mut sums[piece.pixel], piece.places());
             for c in 0..3 {
-                let mut means = [0.0; ROOM];
-                for half in 0..2 {
-                    (sums[c][half] * share).store(&mut means[half * EIGHT..]);
-                }
-                for lane in 0..R::LANES {
-                    chunk.value[c][k + lane] += means[lane];
-                }
+                sum.channels[c] = sum.channels[c] + Moments::by::<R::Wide>(&chunk.value[c][places.clone()]);
+            }
+            sum.rays += chunk.rays(places.clone()) + places.len() as u64;
+            if !sum.channels.iter().all(|moments| moments.mean.is_finite()) {
+                return Some(piece);
             }
         }
+        None
     }
 }

@@ -1,8 +1,13 @@
 //! Images: the radiance toward a camera, by one strategy.
 
+mod admitted;
 mod beam;
 mod chunk;
+mod face;
 mod painter;
+mod receive;
+mod samples;
+mod tile;
 
 use rayon::prelude::*;
 use twoforms_estimator::moments::Moments;
@@ -12,7 +17,9 @@ use twoforms_scene::Camera;
 
 use crate::error::{BrokenPixel, ComparisonError};
 use crate::world::World;
+use chunk::Chunk;
 use painter::Painter;
+use tile::tiles;
 
 /// Where in a pixel its samples lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,65 +129,40 @@ impl Pixel {
     }
 }
 
-/// What lies at a pixel's centre.
+/// What lies at a pixel's centre, found in binary64 and rounded to what image files hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Centre {
     /// World position in metres.
-    pub position: [f64; 3],
+    pub position: [f32; 3],
     /// Geometric unit normal on the side that is seen.
-    pub normal: [f64; 3],
+    pub normal: [f32; 3],
     /// Distance along the camera's axis in metres.
-    pub depth: f64,
+    pub depth: f32,
     /// ρ, RGB.
     pub albedo: [f32; 3],
 }
-
-/// Pixels along the side of a tile. Tiles lie at multiples of it, whatever part of the image is rendered.
-const TILE: u32 = 16;
 
 impl Rendering {
     /// Renders the crop's pixels, row by row from the top, in parallel on rayon's threads; the pixels do not depend on
     /// how many there are. `progress` is told of pixels done, from any thread.
     ///
     /// # Errors
-    /// When the strategy has no sampler, or a sample is not finite.
+    /// When the strategy or the number of samples is impossible with the sampler, or a sample is not finite.
     pub fn run(
         &self,
         world: &World,
         camera: &Camera,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<Pixel>, ComparisonError> {
-        let painter = Painter::new(self, world, camera)?;
-        let tiles: Result<Vec<(Crop, Vec<Pixel>)>, BrokenPixel> = self
-            .tiles()
-            .into_par_iter()
-            .map(|tile| {
-                let inside = tile.within(self.crop);
-                let pixels = painter.tile(tile)?;
-                progress(u64::from(inside.width()) * u64::from(inside.height()));
-                Ok((inside, pixels))
-            })
-            .collect();
-        Ok(self.assembled(tiles?))
-    }
-
-    fn tiles(&self) -> Vec<Crop> {
-        let Crop { x0, x1, y0, y1 } = self.crop;
-        let along = |from: u32, to: u32| (from / TILE..to.div_ceil(TILE)).map(|k| (k * TILE, (k + 1) * TILE));
-        let row = |(y0, y1)| along(x0, x1).map(move |(x0, x1)| Crop { x0, x1, y0, y1 });
-        along(y0, y1).flat_map(row).collect()
-    }
-
-    /// The pixels of all tiles, row by row.
-    fn assembled(&self, tiles: Vec<(Crop, Vec<Pixel>)>) -> Vec<Pixel> {
-        let width = self.crop.width() as usize;
-        let mut image = vec![Pixel::default(); width * self.crop.height() as usize];
-        for (tile, pixels) in tiles {
-            for (y, row) in (tile.y0..).zip(pixels.chunks(tile.width() as usize)) {
-                let start = (y - self.crop.y0) as usize * width + (tile.x0 - self.crop.x0) as usize;
-                image[start..start + row.len()].copy_from_slice(row);
-            }
-        }
-        image
+        self.admit()?;
+        let painter = Painter::new(self, world, camera);
+        let mut image = vec![Pixel::default(); self.crop.width() as usize * self.crop.height() as usize];
+        tiles(self.crop, &mut image).into_par_iter().try_for_each_init(Chunk::new, |chunk, mut tile| {
+            let pixels = painter.tile(tile.square, chunk)?;
+            tile.fill(&pixels);
+            progress(pixels.len() as u64);
+            Ok::<(), BrokenPixel>(())
+        })?;
+        Ok(image)
     }
 }

@@ -27,7 +27,7 @@ pub use efficiency::efficiency;
 pub use familywise::{holm, sidak};
 pub use log_variance::{LogVariance, MIN_EFFECTIVE, MIN_NON_ZERO};
 pub use normal::{normal_quantile, normal_tail};
-pub use rate::{REGIMES, RateFit, fit_rate};
+pub use rate::{Candidates, REGIMES, RateFit, fit_rate};
 pub use ratio::{VarianceRatio, variance_ratio};
 pub use reason::Reason;
 pub use student::{Z_95, student_quantile};

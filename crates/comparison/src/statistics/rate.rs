@@ -1,5 +1,7 @@
 //! The rate at which variance falls with the number of samples.
 
+use std::fmt;
+
 use super::log_variance::LogVariance;
 use super::reason::Reason;
 use super::student::Z_95;
@@ -8,8 +10,13 @@ use super::student::Z_95;
 ///
 /// −1: independent samples. −3/2: jittered samples across a discontinuity in two dimensions (Mitchell 1996).
 /// −2: jittered samples of a smooth function in two dimensions, or stratified ones across a jump in one.
-/// −3: stratified samples of a smooth function in one dimension, and scrambled nets up to logarithms (Owen 1997).
+/// −3: stratified samples of a smooth function in one dimension, and scrambled nets in two up to a logarithm (Owen 1997).
+/// A net of N = 2^k points fills k + 1 shapes of intervals, so that any slope from that of N⁻³ to that of
+/// (1 + log₂ N) N⁻³, fitted to the same N, is of that regime.
 pub const REGIMES: [(f64, &str); 4] = [(-1.0, "1/N"), (-1.5, "1/N^1.5"), (-2.0, "1/N^2"), (-3.0, "1/N^3")];
+
+/// The slope that scrambled nets have up to a logarithm.
+const NET: f64 = -3.0;
 
 /// The fitted line's slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +29,39 @@ pub struct RateFit {
     pub birge: f64,
     /// Name of the one regime of [`REGIMES`] whose slope lies in the interval, or why there is none.
     pub regime: Result<&'static str, Reason>,
+    /// All regimes whose slopes lie in the interval.
+    pub candidates: Candidates,
+}
+
+/// Some of the [`REGIMES`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Candidates([bool; REGIMES.len()]);
+
+impl Candidates {
+    /// Those whose slopes lie in the interval; `logarithm` is what a factor 1 + log₂ N adds to a slope.
+    fn within([lo, hi]: [f64; 2], logarithm: f64) -> Self {
+        let most = |slope: f64| if slope == NET { slope + logarithm } else { slope };
+        Self(REGIMES.map(|(slope, _)| lo <= most(slope) && slope <= hi))
+    }
+
+    /// Their names.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        REGIMES.into_iter().zip(self.0).filter(|(_, inside)| *inside).map(|((_, name), _)| name)
+    }
+
+    /// The only one, or why there is none.
+    fn only(self) -> Result<&'static str, Reason> {
+        let mut names = self.names();
+        let first = names.next().ok_or(Reason::NoRegime)?;
+        if names.next().is_none() { Ok(first) } else { Err(Reason::SeveralRegimes { found: self }) }
+    }
+}
+
+/// `1/N^1.5 or 1/N^2`.
+impl fmt::Display for Candidates {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.names().collect::<Vec<_>>().join(" or "))
+    }
 }
 
 /// Slope of ln s² against ln N by least squares, weighted by the known errors of ln s².
@@ -41,7 +81,8 @@ pub fn fit_rate(points: &[(u64, LogVariance)]) -> Result<RateFit, Reason> {
     let birge = line.birge(points);
     let half = Z_95 * line.standard_error * birge;
     let interval = [line.slope - half, line.slope + half];
-    Ok(RateFit { slope: line.slope, interval, birge, regime: regime(interval) })
+    let candidates = Candidates::within(interval, line.logarithm(points));
+    Ok(RateFit { slope: line.slope, interval, birge, regime: candidates.only(), candidates })
 }
 
 struct Line {
@@ -56,6 +97,14 @@ impl Line {
         let centre @ [x_mean, y_mean] = [sum_x / total, sum_y / total];
         let [s_xx, s_xy] = sums(points, |x, y| [(x - x_mean) * (x - x_mean), (x - x_mean) * (y - y_mean)]);
         (distinct(points) > 1).then(|| Self { slope: s_xy / s_xx, standard_error: 1.0 / s_xx.sqrt(), centre })
+    }
+
+    /// The slope of ln (1 + log₂ N) through the same points.
+    fn logarithm(&self, points: &[(u64, LogVariance)]) -> f64 {
+        let [x_mean, _] = self.centre;
+        let factor = |x: f64| libm::log(1.0 + x / std::f64::consts::LN_2);
+        let [s_xx, s_xf] = sums(points, |x, _| [(x - x_mean) * (x - x_mean), (x - x_mean) * factor(x)]);
+        s_xf / s_xx
     }
 
     fn birge(&self, points: &[(u64, LogVariance)]) -> f64 {
@@ -80,15 +129,6 @@ fn distinct(points: &[(u64, LogVariance)]) -> usize {
     counts.sort_unstable();
     counts.dedup();
     counts.len()
-}
-
-fn regime([lo, hi]: [f64; 2]) -> Result<&'static str, Reason> {
-    let inside: Vec<&'static str> = REGIMES.iter().filter(|(s, _)| lo <= *s && *s <= hi).map(|r| r.1).collect();
-    match inside[..] {
-        [] => Err(Reason::NoRegime),
-        [name] => Ok(name),
-        _ => Err(Reason::SeveralRegimes { found: inside.len() }),
-    }
 }
 
 #[cfg(test)]
@@ -117,8 +157,21 @@ mod tests {
     #[test]
     fn a_wide_interval_has_no_name_and_neither_has_a_strange_slope() {
         let two = [point(1, 1.0, 40), point(2, 0.4, 40)];
-        assert_eq!(fit_rate(&two).map(|fit| fit.regime), Ok(Err(Reason::SeveralRegimes { found: 2 })));
+        let undecided = fit_rate(&two).map(|fit| fit.regime);
+        assert!(
+            matches!(undecided, Ok(Err(Reason::SeveralRegimes { found })) if found.to_string() == "1/N or 1/N^1.5")
+        );
         assert_eq!(fit_rate(&power_law(-2.5, 1000)).map(|fit| fit.regime), Ok(Err(Reason::NoRegime)));
+    }
+
+    #[test]
+    fn a_logarithm_is_no_other_regime() {
+        let net = [4, 16, 64, 256].map(|n: u64| {
+            let size = n as f64;
+            point(n, (1.0 + size.log2()) * size.powi(-3), 1000)
+        });
+        let fit = fit_rate(&net).expect("four points");
+        assert!(fit.slope > -2.8 && fit.regime == Ok("1/N^3"), "{fit:?}");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::log_variance::{MIN_EFFECTIVE, MIN_NON_ZERO};
+use super::rate::Candidates;
 
 /// Why a statistic is not given. Its text is a complete sentence for the reader of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -58,10 +59,11 @@ pub enum Reason {
     NoRegime,
     /// More than one does.
     #[error(
-        "{found} known rates lie in the interval of the slope: take more replicates or a wider range of sample counts"
+        "undecided between {found}, which all lie in the interval of the slope: take more replicates or a wider range of \
+         sample counts"
     )]
     SeveralRegimes {
-        /// How many.
-        found: usize,
+        /// Which.
+        found: Candidates,
     },
 }

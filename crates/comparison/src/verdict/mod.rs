@@ -38,6 +38,9 @@ const SHOWN: f64 = 0.5;
 /// How near samples must be to the one value that they can have: binary32 and its arithmetic.
 const SAME: f64 = 1e-5;
 
+/// Replicates below which their mean is not taken for normal, where the samples of each depend on each other.
+const FEW_REPLICATES: f64 = 300.0;
+const TOO_FEW_REPLICATES: &str = "fewer than 300 replicates of samples that depend on each other: too few to judge by";
 const TOO_FEW: &str = "fewer than 30 samples that are not zero: too few to judge by";
 const STRAY_LIGHT: &str = "light where there should be none, in too few samples to judge by";
 const HEAVY_TAIL: &str = "heavy-tailed: the samples show less than half of their exact variance";
@@ -67,7 +70,7 @@ pub(crate) struct Evidence {
     pub(crate) reference: (f64, f64),
     /// Exact variance of one unit.
     pub(crate) exact_variance: Option<f64>,
-    /// Moments of the luminances of independent units, none of them negative: single samples, or replicates where the
+    /// Moments of the luminances of independent units, none of them negative unless they are signed: single samples, or replicates where the
     /// samples of one depend on each other.
     pub(crate) units: Moments,
     /// Samples in a unit.
@@ -76,6 +79,10 @@ pub(crate) struct Evidence {
     pub(crate) hits: u64,
     /// The one value that units have where they are not zero.
     pub(crate) one_value: Option<f64>,
+    /// Whether units can be negative, so that what holds for values from zero up does not.
+    pub(crate) signed: bool,
+    /// Whether the estimator is biased by design.
+    pub(crate) biased: bool,
 }
 
 /// Judges all of a run together; the verdicts come in the order of the evidence.
@@ -147,7 +154,7 @@ impl Evidence {
         if let Some(value) = self.two_values(variance) {
             return Law::TwoValues { value, hits: self.hits, n: n as u64 };
         }
-        let second = variance + e * e;
+        let second = if self.signed { f64::INFINITY } else { variance + e * e };
         let hits = (self.hits as f64).max(if e == 0.0 { 0.0 } else { n * e * e / second });
         match () {
             () if hits < FEW_HITS => Law::Unknown { note: if e == 0.0 { STRAY_LIGHT } else { TOO_FEW } },
@@ -160,6 +167,9 @@ impl Evidence {
     /// the law of fewest hits: by Cauchy and Schwarz Pr(w ≠ 0) ≥ E²/E\[w²\].
     fn two_values(&self, variance: f64) -> Option<f64> {
         let e = self.expected();
+        if self.signed {
+            return None;
+        }
         if e == 0.0 {
             return self.one_value.filter(|_| (self.hits as f64) < FEW_HITS);
         }
@@ -173,6 +183,9 @@ impl Evidence {
         let shown = self.units.variance().unwrap_or(0.0);
         match () {
             () if (self.hits as f64) < FEW_HITS => Law::Unknown { note: TOO_FEW },
+            () if self.samples_per_unit > 1.0 && self.units.n < FEW_REPLICATES => {
+                Law::Unknown { note: TOO_FEW_REPLICATES }
+            }
             () if shown.sqrt() <= self.budget() => Law::Certain,
             () => self.normal(shown, self.units.n - 1.0),
         }
@@ -194,7 +207,9 @@ impl Evidence {
         let interval = law.interval(self.expected(), self.difference(), level);
         let biased = interval.is_some_and(|[lo, hi]| lo > budget || hi < -budget);
         let unbiased = interval.is_some_and(|[lo, hi]| lo >= -margin && hi <= margin);
-        let verdict = if biased {
+        let verdict = if self.biased {
+            "expected_bias"
+        } else if biased {
             "biased"
         } else if unbiased {
             "unbiased"
@@ -228,6 +243,7 @@ impl Evidence {
     fn note(&self, verdict: &str, law: Law, margin: f64) -> String {
         let by_size = if self.difference().abs() < margin { "below" } else { "beyond" };
         match (verdict, law) {
+            ("expected_bias", _) => "biased by design, less the more samples are taken".into(),
             (_, Law::Unknown { note }) => note.into(),
             ("biased", _) => format!("there is a bias, {by_size} the margin"),
             ("unbiased", Law::Certain) => "nothing varies".into(),

@@ -13,6 +13,8 @@ fn evidence(mean: f64, variance: f64, n: f64) -> Evidence {
         units: Moments { n, mean, m2: variance * (n - 1.0), m3: 0.0, m4: 3.0 * variance * variance * n },
         samples_per_unit: 1.0,
         hits: n as u64,
+        signed: false,
+        biased: false,
         one_value: None,
     }
 }

@@ -5,10 +5,12 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
 use twoforms_geometry::vector::Direction;
-use twoforms_geometry::view::Vantage;
+use twoforms_geometry::view::{Vantage, View};
 
-use super::Density;
+use super::{Density, Ready};
+use crate::lights::Lights;
 use crate::measure::{Aim, Pdf, Sample, SolidAngle};
+use crate::selection::Selection;
 use crate::xi::Xi;
 
 /// p(Ψ) = 1/2π.
@@ -58,3 +60,26 @@ fn drawn<R: Real>(
     let at = Aim::anywhere(psi);
     density.pdf(from, &at).map(|pdf| Sample { at, pdf })
 }
+
+/// Densities of directions that are the same for every scene and x.
+macro_rules! ready_everywhere {
+    ($($density:ident),*) => {$(
+        impl Ready for $density {
+            type Measure = SolidAngle;
+            type At<'a> = Self;
+
+            fn prepare(_: &Lights, _: Selection) -> Self {
+                Self
+            }
+
+            fn depends_on_x(&self) -> bool {
+                false
+            }
+
+            fn at(&self, _: &View, _: &Lights) -> Self {
+                *self
+            }
+        }
+    )*};
+}
+ready_everywhere!(UniformHemisphere, CosineHemisphere);

@@ -26,8 +26,13 @@ impl Formulation for Area {
     #[inline(always)]
     fn integrand<R: Real>(from: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
-        let v = from.visible(y, xy.facing());
-        Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r() * xy.g())
+        Integrand::new(query.l_e(Self::seen(from, y)) * query.f_r(xy.psi) * xy.g())
+    }
+
+    /// y itself, where V(x, y) = 1.
+    #[inline(always)]
+    fn seen<R: Real>(from: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<SurfacePoint<R>, R> {
+        Masked::new(*y, from.visible(y, Segment::to(y).facing()))
     }
 
     /// V is asked for only where x and y face each other.

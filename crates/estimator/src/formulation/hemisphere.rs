@@ -4,7 +4,9 @@
 //!
 //! (Dutré, Bala, Bekaert, "Advanced Global Illumination", section 2.6: the hemispherical formulation, first bounce.)
 
+use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real};
+use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::Vantage;
 
 use super::Formulation;
@@ -23,9 +25,14 @@ impl Formulation for Hemisphere {
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x
     #[inline(always)]
     fn integrand<R: Real>(from: &Vantage<R>, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
-        let y = aim.vp(from);
         let cos_x = aim.psi.cos_theta();
-        Integrand::new(query.l_e(y) * query.f_r() * cos_x)
+        Integrand::new(query.l_e(Self::seen(from, aim)) * query.f_r(aim.psi) * cos_x)
+    }
+
+    /// y = vp(x, Ψ)
+    #[inline(always)]
+    fn seen<R: Real>(from: &Vantage<R>, aim: &Aim<R>) -> Masked<SurfacePoint<R>, R> {
+        aim.vp(from)
     }
 
     /// Every direction needs its y.

@@ -6,7 +6,9 @@ mod hemisphere;
 pub use area::Area;
 pub use hemisphere::Hemisphere;
 
+use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
+use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::Vantage;
 
 use crate::measure::{Integrand, Measure};
@@ -26,6 +28,9 @@ pub trait Formulation {
         query: &Query,
         at: &<Self::Measure as Measure>::Point<R>,
     ) -> Integrand<Self::Measure, R>;
+
+    /// The point of a light that x sees at a point of the domain, if it does: what the integrand values.
+    fn seen<R: Real>(from: &Vantage<R>, at: &<Self::Measure as Measure>::Point<R>) -> Masked<SurfacePoint<R>, R>;
 
     /// Where the integrand asks for a ray: vp or V.
     fn asks<R: Real>(at: &<Self::Measure as Measure>::Point<R>) -> R::Mask;

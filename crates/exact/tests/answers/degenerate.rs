@@ -1,8 +1,7 @@
 //! Geometry that nobody would model on purpose: an answer or a reason, in bounded time, never a panic.
 
 use glam::DVec3;
-use twoforms_estimator::strategy::Strategy;
-use twoforms_exact::{Error, Facing, Light, Sight};
+use twoforms_exact::{Error, Facing, Light, Sight, with_formula};
 
 use crate::support::{Lamp, Random, Scene, Triangle, ceiling, coplanar, lamp, parallelogram};
 
@@ -12,7 +11,7 @@ fn sane(sight: &Sight, what: &str) {
     assert!(e.luminance.is_finite() && e.error_bound.is_finite() && e.error_bound >= 0.0, "{what}: {e:?}");
     assert!(e.luminance >= -e.error_bound, "{what}: {e:?}");
     assert!(e.luminance <= open.luminance + e.error_bound + open.error_bound, "{what}: {e:?} of {open:?}");
-    for strategy in Strategy::with_exact_variance() {
+    for strategy in with_formula() {
         match sight.variance(strategy) {
             Ok(v) => {
                 let bounded = v.error_bound.is_finite() && v.error_bound >= 0.0;
@@ -152,7 +151,7 @@ fn edge_on_lights_give_nothing() {
 fn no_lights_no_light() {
     let sight = Sight::new(&[], &[]).unwrap();
     assert_eq!(sight.irradiance().luminance, 0.0);
-    for (strategy, value) in sight.variances(&Strategy::with_exact_variance()) {
+    for (strategy, value) in sight.variances(&with_formula()) {
         assert_eq!(value.unwrap().luminance, 0.0, "{strategy}");
     }
 }

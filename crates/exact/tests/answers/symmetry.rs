@@ -1,8 +1,8 @@
 //! What must not change an answer.
 
 use glam::{DQuat, DVec3};
-use twoforms_estimator::strategy::Strategy;
 use twoforms_exact::Sight;
+use twoforms_exact::with_formula;
 
 use crate::support::{Lamp, Random, Scene, Triangle, ceiling, lamp};
 
@@ -23,7 +23,7 @@ fn room(random: &mut Random) -> Scene {
 fn agree(one: &Sight, other: &Sight, tolerance: f64, what: &str) {
     let (a, b) = (one.irradiance(), other.irradiance());
     assert!((a.luminance - b.luminance).abs() <= tolerance * a.luminance, "{what}: {a:?} {b:?}");
-    for strategy in Strategy::with_exact_variance() {
+    for strategy in with_formula() {
         let (a, b) = (one.variance(strategy).unwrap(), other.variance(strategy).unwrap());
         for (a, b) in a.rgb.iter().zip(b.rgb).chain([(&a.luminance, b.luminance)]) {
             assert!((a - b).abs() <= tolerance * a.abs() + 1e-24, "{what}: {strategy}: {a} {b}");
@@ -91,7 +91,7 @@ fn radiance_scales() {
     let triangles = ceiling(DVec3::new(0.3, 0.1, 1.0), 0.7, 0.4);
     let one = Scene::of(vec![lamp(triangles.clone(), 1.0)]).sight(DVec3::ZERO, DVec3::new(0.1, 0.3, 1.0));
     let seven = Scene::of(vec![lamp(triangles, 7.0)]).sight(DVec3::ZERO, DVec3::new(0.1, 0.3, 1.0));
-    for (strategy, value) in one.variances(&Strategy::with_exact_variance()) {
+    for (strategy, value) in one.variances(&with_formula()) {
         let (a, b) = (value.unwrap().luminance, seven.variance(strategy).unwrap().luminance);
         assert!((49.0 * a - b).abs() <= 1e-12 * b, "{strategy}: {a} {b}");
         if strategy.to_string().contains("projected") {

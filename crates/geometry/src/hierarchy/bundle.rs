@@ -3,10 +3,11 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::Hierarchy;
+use super::best::Best;
 use super::node::{Node, WIDTH};
 use super::probe::{Probe, STRETCH};
 use super::stack::Stack;
-use super::traverse::{NOTHING, closest_in, nearest, within_reach};
+use super::traverse::{closest_in, nearest, within_reach};
 use crate::ray::{Hit, Ray, Shear};
 
 /// All rays of a bundle as one: intervals of their origins and of the inverses of their directions.
@@ -85,7 +86,7 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, rays: &[Ray]
     let Some(bundle) = Bundle::new(&probes[..count]) else {
         return false;
     };
-    let (mut best, mut reach) = ([NOTHING; WIDTH], [f32::INFINITY; WIDTH]);
+    let (mut best, mut reach) = ([Best::NOTHING; WIDTH], [f32::INFINITY; WIDTH]);
     let mut farthest = f32::INFINITY;
     let mut stack = T::new();
     let mut next = tree.root;
@@ -104,7 +105,7 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, rays: &[Ray]
         next = next.or_else(|| within_reach(&mut stack, farthest));
     }
     for (hit, best) in hits.iter_mut().zip(best) {
-        *hit = (best != NOTHING).then_some(best);
+        *hit = best.hit(tree);
     }
     true
 }

@@ -6,6 +6,7 @@
 //! every machine, whatever instructions it has and in whatever order the tree is walked, and the binary32 tests are free
 //! to fuse, reorder and round as suits the machine.
 
+mod best;
 mod binary;
 mod bundle;
 mod collapse;
@@ -39,6 +40,7 @@ pub struct Hierarchy {
     packets: Vec<Packet>,
     /// For each packet, the triangles in its lanes.
     triangles: Vec<[u32; WIDTH]>,
+    /// A node, if there is any triangle.
     root: Option<Child>,
     /// The largest coordinate of the mesh.
     magnitude: f32,
@@ -91,11 +93,19 @@ impl Hierarchy {
         hierarchy
     }
 
-    /// Makes nodes and packets, each node's own next to each other, subtree after subtree.
+    /// Makes nodes and packets, each node's own next to each other, subtree after subtree; the root is a node even above a
+    /// single packet.
     fn fill(&mut self, mesh: &Mesh, binary: &Binary, collapse: &Collapse) {
-        let root = self.make(mesh, collapse, 0);
-        self.root = Some(root);
-        let mut unfinished = if root.is_packet() { Vec::new() } else { vec![(root, 0)] };
+        let top = self.make(mesh, collapse, 0);
+        let mut unfinished = Vec::new();
+        if top.is_packet() {
+            let mut node = Node::EMPTY;
+            node.put(0, top, binary.bounds(0));
+            self.nodes.push(node);
+        } else {
+            unfinished.push((top, 0));
+        }
+        self.root = Some(Child::node(0));
         while let Some((child, place)) = unfinished.pop() {
             let mut node = Node::EMPTY;
             for (slot, part) in collapse.parts(place).into_iter().enumerate() {

@@ -14,6 +14,8 @@ pub(super) const WIDTH: usize = 8;
 pub(super) struct Node {
     bounds: [[f32; WIDTH]; 6],
     pub(super) children: [Child; WIDTH],
+    /// The children that are packets, a bit each.
+    pub(super) packets: u32,
 }
 
 impl Node {
@@ -28,6 +30,7 @@ impl Node {
             [f32::NEG_INFINITY; WIDTH],
         ],
         children: [Child::NONE; WIDTH],
+        packets: 0,
     };
 
     /// Puts a child into a slot.
@@ -37,6 +40,7 @@ impl Node {
             self.bounds[axis + 3][slot] = high[axis];
         }
         self.children[slot] = child;
+        self.packets |= u32::from(child.is_packet()) << slot;
     }
 
     /// The children there are.
@@ -76,7 +80,7 @@ pub(super) struct Child(u32);
 impl Child {
     const PACKET: u32 = 1 << 31;
     /// No child.
-    const NONE: Self = Self(u32::MAX);
+    pub(super) const NONE: Self = Self(u32::MAX);
 
     pub(super) fn node(index: usize) -> Self {
         Self(index as u32)

@@ -3,21 +3,19 @@
 use fearless_simd::{Simd, prelude::*};
 
 use super::Hierarchy;
+use super::best::Best;
 use super::crossings::Crossings;
 use super::node::{Child, Node, WIDTH};
 use super::probe::{Probe, reach_of, short_of};
 use super::stack::{Stack, entry, parts};
 use crate::ray::{Hit, Ray, Shear};
 
-/// What is met where nothing is.
-pub(super) const NOTHING: Hit = Hit { t: f64::INFINITY, triangle: u32::MAX };
-
 /// The nearest triangle along the ray, the lower index of those at one distance; nearer children first.
 #[inline(always)]
 pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -> Option<Hit> {
     let shear = Shear::new(ray);
     let probe = Probe::new(ray, &shear, tree.magnitude);
-    let (mut best, mut reach) = (NOTHING, f32::INFINITY);
+    let (mut best, mut reach) = (Best::NOTHING, f32::INFINITY);
     let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
@@ -31,7 +29,7 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, ray: &Ray) -
         };
         next = next.or_else(|| within_reach(&mut stack, reach));
     }
-    (best != NOTHING).then_some(best)
+    best.hit(tree)
 }
 
 /// Takes what is nearer in a packet for the best hit, and how far that reaches.
@@ -41,20 +39,21 @@ pub(super) fn closest_in<S: Simd>(
     tree: &Hierarchy,
     child: Child,
     (ray, shear, probe): (&Ray, &Shear, &Probe),
-    (best, reach): (&mut Hit, &mut f32),
+    (best, reach): (&mut Best, &mut f32),
 ) {
     let packet = &tree.packets[child.index()];
     for lane in lanes(Crossings::new(simd, packet, probe).possible(probe, *reach)) {
         if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
-            let hit = Hit { t, triangle: tree.triangles[child.index()][lane] };
-            *best = if hit.before(best) { hit } else { *best };
-            *reach = reach_of(best.t);
+            let new = Best { t, packet: child, lane };
+            if new.before(best, tree) {
+                (*best, *reach) = (new, reach_of(t));
+            }
         }
     }
 }
 
 /// Whether the ray meets a triangle at a distance below `before` for which `blocks` holds; larger children first, which
-/// are the likelier to block.
+/// are the likelier to block, and a node's packets before what is below it.
 #[inline(always)]
 pub(super) fn any<S: Simd, T: Stack>(
     simd: S,
@@ -69,16 +68,14 @@ pub(super) fn any<S: Simd, T: Stack>(
     let mut stack = T::new();
     let mut next = tree.root;
     while let Some(child) = next {
-        next = if child.is_packet() {
-            if any_in(simd, tree, child, (ray, &shear, &probe), (before, reach), blocks) {
+        let node = &tree.nodes[child.index()];
+        let entered = node.enter(simd, &probe, reach).0;
+        next = largest(node, entered & !node.packets, &mut stack).or_else(|| stack.pop().map(|entry| parts(entry).1));
+        for slot in lanes(entered & node.packets) {
+            if any_in(simd, tree, node.children[slot], (ray, &shear, &probe), (before, reach), blocks) {
                 return true;
             }
-            None
-        } else {
-            let node = &tree.nodes[child.index()];
-            largest(node, node.enter(simd, &probe, reach).0, &mut stack)
-        };
-        next = next.or_else(|| stack.pop().map(|entry| parts(entry).1));
+        }
     }
     false
 }

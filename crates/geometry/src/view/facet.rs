@@ -49,6 +49,16 @@ impl<R: Real> Facet<R> {
         }
     }
 
+    /// The same facet for every sample.
+    #[inline(always)]
+    pub(crate) fn splat(row: &[f32; ROW]) -> Self {
+        let mut numbers = [R::zero(); ROW];
+        for k in 0..ROW {
+            numbers[k] = R::splat(row[k]);
+        }
+        Self::from_row(numbers)
+    }
+
     /// The same facet from a point `start` of a footprint around x.
     #[inline(always)]
     pub(crate) fn seen_from(self, start: Vector<R>) -> Self {

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::facet::{Facet, Standing, Wide};
 use super::prospect::{Need, Prospect};
-use super::pyramid::Pyramid;
+use super::shaft::Shaft;
 use super::window::Window;
 use crate::blocking;
 use crate::frame::Frame;
@@ -36,8 +36,8 @@ pub(crate) struct Group<'a> {
 struct Member {
     target: u32,
     facet: Wide,
-    /// What is lit has a pyramid, and its window.
-    lit: Option<(Pyramid, Window)>,
+    /// What is lit has a shaft from x, and its window.
+    lit: Option<(Shaft, Window)>,
 }
 
 /// Triangles that may stand before some of them, and the windows in which they stand.
@@ -56,13 +56,13 @@ impl<'a> Group<'a> {
         let mut members: Vec<Member> =
             targets.iter().filter_map(|&target| Member::of(geometry, frame, target)).collect();
         let lit = || members.iter().filter_map(|member| member.lit.as_ref());
-        let centre: DVec3 = lit().flat_map(|(pyramid, _)| pyramid.visible()).sum();
+        let centre: DVec3 = lit().flat_map(|(shaft, _)| shaft.visible()).sum();
         let axes = Frame::new(DVec3::ZERO, centre.normalize_or(DVec3::Z));
         let mut window = Window::NONE;
         let mut sum = 0.0;
         for member in &mut members {
-            if let Some((pyramid, own)) = &mut member.lit {
-                *own = Window::around(&axes, pyramid.visible())?;
+            if let Some((shaft, own)) = &mut member.lit {
+                *own = Window::around(&axes, shaft.visible())?;
                 window = window.union(own);
                 sum += own.size();
             }
@@ -122,13 +122,13 @@ impl Candidates {
     /// The triangles that stand before a lit target.
     fn before(
         &self,
-        (pyramid, window): &(Pyramid, Window),
+        (shaft, window): &(Shaft, Window),
         target: u32,
         geometry: &Geometry,
     ) -> impl Iterator<Item = [DVec3; 3]> {
         let near = self.windows.iter().zip(&self.triangles).filter(|(own, _)| own.meets(window));
         let stands = move |(triangle, corners): &(u32, [DVec3; 3])| {
-            (geometry.may_block(*triangle, target) && pyramid.meets(corners)).then_some(*corners)
+            (geometry.may_block(*triangle, target) && shaft.meets(corners)).then_some(*corners)
         };
         near.filter_map(move |(_, candidate)| stands(candidate))
     }
@@ -140,7 +140,7 @@ impl Member {
         match facet.standing() {
             Standing::Dark | Standing::OnBack => None,
             Standing::On => Some(Self { target, facet, lit: None }),
-            Standing::Lit => Some(Self { target, facet, lit: Some((Pyramid::new(&facet), Window::NONE)) }),
+            Standing::Lit => Some(Self { target, facet, lit: Some((Shaft::from_x(&facet), Window::NONE)) }),
         }
     }
 }

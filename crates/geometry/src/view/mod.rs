@@ -10,7 +10,6 @@ mod facet;
 mod group;
 mod polygon;
 mod prospect;
-mod pyramid;
 mod shaft;
 mod sight;
 mod vantage;
@@ -95,6 +94,13 @@ impl<'g> View<'g> {
     /// What was gathered about each target, in order; `None` where there are too many and rays are cast instead.
     pub fn sights(&self) -> Option<&[Sight]> {
         self.sights.as_deref()
+    }
+
+    /// Does something with the corners of a target, counter-clockwise from its front, in metres in the frame of x; nothing
+    /// where x is not on a side that emits.
+    pub fn facing<T>(&self, target: u32, f: impl FnOnce(&[DVec3]) -> T) -> Option<T> {
+        let facet = self.wide(target);
+        facet.faces_x().then(|| f(facet.corners()))
     }
 
     fn outline(&self, target: u32) -> Cone {

@@ -2,24 +2,29 @@
 
 use glam::DVec3;
 
-/// Up to six points, or planes, in order: what four corners can have that are cut by one plane. (Five, but that corners which
-/// rounding has left next to that plane may lie to either side in turn.)
+/// Up to six things in order: what four corners can have that are cut by one plane. (Five, but that corners which rounding
+/// has left next to that plane may lie to either side in turn.)
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Polygon {
-    at: [DVec3; 6],
+pub(crate) struct Few<T> {
+    at: [T; 6],
     count: usize,
 }
 
-impl Polygon {
-    pub(crate) fn as_slice(&self) -> &[DVec3] {
+/// Corners in order.
+pub(crate) type Polygon = Few<DVec3>;
+
+impl<T> Few<T> {
+    pub(crate) fn as_slice(&self) -> &[T] {
         &self.at[..self.count]
     }
 
-    fn push(&mut self, point: DVec3) {
-        self.at[self.count] = point;
+    fn push(&mut self, thing: T) {
+        self.at[self.count] = thing;
         self.count += 1;
     }
+}
 
+impl Polygon {
     /// The part above x's horizon (z > 0) of a convex polygon of up to four corners, by Sutherland and Hodgman 1974.
     pub(crate) fn above_horizon(corners: &[DVec3]) -> Self {
         let mut kept = Self::default();
@@ -53,10 +58,10 @@ pub(crate) fn clipped(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<D
     kept
 }
 
-impl FromIterator<DVec3> for Polygon {
-    fn from_iter<I: IntoIterator<Item = DVec3>>(points: I) -> Self {
-        let mut polygon = Self::default();
-        points.into_iter().for_each(|point| polygon.push(point));
-        polygon
+impl<T: Default> FromIterator<T> for Few<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(things: I) -> Self {
+        let mut few = Self::default();
+        things.into_iter().for_each(|thing| few.push(thing));
+        few
     }
 }

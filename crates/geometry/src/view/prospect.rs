@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::facet::{Facet, Standing, Wide};
 use super::group::Group;
-use super::pyramid::Pyramid;
+use super::shaft::Shaft;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::mesh::Triangle;
@@ -44,9 +44,9 @@ impl Prospect {
         let facet = Facet::wide(geometry, frame, target);
         let mut blockers = Vec::new();
         if facet.lit() {
-            let pyramid = Pyramid::new(&facet);
-            let _ = pyramid.visit(geometry, frame, target, usize::MAX, |corners| {
-                blockers.extend(pyramid.meets(&corners).then_some(corners));
+            let shaft = Shaft::from_x(&facet);
+            let _ = shaft.visit(geometry, frame, target, usize::MAX, |corners| {
+                blockers.extend(shaft.meets(&corners).then_some(corners));
                 ControlFlow::Continue(())
             });
         }
@@ -67,9 +67,9 @@ impl Prospect {
         let facet = Wide::new(corners.iter().copied(), sides, plane, frame.x());
         let mut blockers = Vec::new();
         if facet.lit() {
-            let pyramid = Pyramid::new(&facet);
-            blockers = within(&pyramid.region(frame));
-            blockers.retain(|corners| pyramid.meets(corners));
+            let shaft = Shaft::from_x(&facet);
+            blockers = within(&shaft.region(frame));
+            blockers.retain(|corners| shaft.meets(corners));
         }
         Self::of(target, &facet, blockers, true)
     }

@@ -38,7 +38,8 @@ pub enum Between {
 impl Sight {
     /// What x sees of a target.
     pub(crate) fn new(geometry: &Geometry, frame: &Frame, target: u32, effort: Effort) -> Self {
-        Self::of(geometry, frame, &[DVec3::ZERO], target, Facet::wide(geometry, frame, target), effort)
+        let facet = Facet::wide(geometry, frame, target);
+        Self::of(geometry, frame, target, facet, || Shaft::from_x(&facet), effort)
     }
 
     /// What all of a footprint sees of a target, a convex polygon in the plane of x; none where it lies on both sides of one
@@ -46,13 +47,21 @@ impl Sight {
     pub(crate) fn over(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32) -> Option<Self> {
         let sides = geometry.targets()[target as usize].sides;
         let facet = Facet::wide(geometry, frame, target).over(sides, footprint)?;
-        Some(Self::of(geometry, frame, footprint, target, facet, Effort::Gather))
+        let shaft = || Shaft::from_footprint(&facet, footprint);
+        Some(Self::of(geometry, frame, target, facet, shaft, Effort::Gather))
     }
 
-    fn of(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32, facet: Wide, effort: Effort) -> Self {
+    fn of(
+        geometry: &Geometry,
+        frame: &Frame,
+        target: u32,
+        facet: Wide,
+        shaft: impl FnOnce() -> Shaft,
+        effort: Effort,
+    ) -> Self {
         let lit = facet.lit();
         let between = match effort {
-            Effort::Gather if lit => gather(geometry, frame, footprint, target, &facet),
+            Effort::Gather if lit => gather(geometry, frame, target, &shaft()),
             Effort::Gather => Between::Gathered(Vec::new()),
             Effort::Cast => Between::Unknown,
         };
@@ -87,12 +96,11 @@ impl Sight {
     }
 }
 
-/// Everything that can stand between x and the visible part of a target, as cones.
-fn gather(geometry: &Geometry, frame: &Frame, footprint: &[DVec3], target: u32, facet: &Wide) -> Between {
-    let shaft = Shaft::new(facet, footprint);
+/// Everything that can stand in the shaft to a target, as cones.
+fn gather(geometry: &Geometry, frame: &Frame, target: u32, shaft: &Shaft) -> Between {
     let mut cones = Vec::new();
     let flow = shaft.visit(geometry, frame, target, MANY_CANDIDATES, |corners| {
-        cones.extend(shaft.cone(corners));
+        cones.extend(shaft.cone(&corners));
         if cones.len() > MANY_BLOCKERS { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     if flow.is_break() { Between::Unknown } else { Between::Gathered(cones) }

@@ -43,53 +43,72 @@ impl<'v, R: Real> Vantage<'v, R> {
     /// The targets as samples meet them, by each sample's index.
     #[inline(always)]
     pub fn facet(&self, target: R::Word) -> Facet<R> {
-        let view = self.view;
-        let facet = Facet::from_row(match &view.sights {
-            Some(sights) => R::gather(
-                target,
-                #[inline(always)]
-                |k| sights[k as usize].row(),
-            ),
-            None => R::gather(
-                target,
-                #[inline(always)]
-                |k| view.wide(k).row(),
-            ),
-        });
+        let facet = match self.view.sights.as_deref() {
+            Some([sight]) => Facet::splat(sight.row()),
+            _ => self.looked_up(target),
+        };
         match self.start {
             Some(start) => facet.seen_from(start),
             None => facet,
         }
     }
 
-    /// Whether the line along Ψ meets a target, whatever stands between and whichever side it shows.
-    #[inline(always)]
-    pub fn meets(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
+    #[cold]
+    #[inline(never)]
+    fn looked_up(self, target: R::Word) -> Facet<R> {
         let view = self.view;
-        self.each(
-            self.wanted,
-            target,
-            psi.vector(),
+        R::apart(
             #[inline(always)]
-            |k, line| view.outline(k).holds(&line).then_some(k),
+            || {
+                Facet::from_row(match &view.sights {
+                    Some(sights) => R::gather(
+                        target,
+                        #[inline(always)]
+                        |k| sights[k as usize].row(),
+                    ),
+                    None => R::gather(
+                        target,
+                        #[inline(always)]
+                        |k| view.wide(k).row(),
+                    ),
+                })
+            },
         )
-        .0
+    }
+
+    /// Whether the line along Ψ meets a target, whatever stands between and whichever side it shows.
+    #[inline(never)]
+    pub fn meets(self, target: R::Word, psi: Direction<R>) -> R::Mask {
+        let view = self.view;
+        R::apart(
+            #[inline(always)]
+            || {
+                self.each(
+                    self.wanted,
+                    target,
+                    psi.vector(),
+                    #[inline(always)]
+                    |k, line| view.outline(k).holds(&line).then_some(k),
+                )
+                .0
+            },
+        )
+    }
+
+    /// The same for one target: a few dot products.
+    #[inline(always)]
+    pub fn meets_one(&self, target: u32, psi: Direction<R>) -> R::Mask {
+        let line = Line { toward: psi.vector(), start: self.start };
+        self.wanted & self.view.outline(target).holds(&line)
     }
 
     /// y = vp(x, Ψ) where y is on the emitting side of a target; nothing where Ψ meets no surface, a surface that does
     /// not emit, or the dark side of one that does.
     #[inline(always)]
     pub fn vp(&self, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
-        let view = self.view;
-        let (reached, target) = match &view.sights {
+        let (reached, target) = match &self.view.sights {
             Some(sights) => self.reached_by_planes(sights, psi),
-            None => self.each(
-                self.wanted,
-                R::Word::splat(0),
-                psi.vector(),
-                #[inline(always)]
-                |_, line| view.reached_by_ray(&line),
-            ),
+            None => self.reached_by_rays(psi),
         };
         let target = R::select_word(reached, target, R::Word::splat(0));
         if !reached.any() {
@@ -118,14 +137,45 @@ impl<'v, R: Real> Vantage<'v, R> {
         let Some(sights) = &self.view.sights else {
             return self.clear_by_ray(y.position, y.target, asked);
         };
-        let mut visible = R::Mask::splat(false);
-        for (k, sight) in sights.iter().enumerate() {
-            let here = asked & R::same(y.target, R::Word::splat(k as u32));
-            if here.any() {
-                visible = visible | self.unblocked(sight, y.position, y.target, here);
-            }
+        match &sights[..] {
+            [sight] => self.unblocked(sight, y.position, y.target, asked),
+            sights => self.unblocked_by_each(sights, *y, asked),
         }
-        visible
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn unblocked_by_each(self, sights: &[Sight], y: SurfacePoint<R>, asked: R::Mask) -> R::Mask {
+        R::apart(
+            #[inline(always)]
+            || {
+                let mut visible = R::Mask::splat(false);
+                for (k, sight) in sights.iter().enumerate() {
+                    let here = asked & R::same(y.target, R::Word::splat(k as u32));
+                    if here.any() {
+                        visible = visible | self.unblocked(sight, y.position, y.target, here);
+                    }
+                }
+                visible
+            },
+        )
+    }
+
+    #[inline(never)]
+    fn reached_by_rays(self, psi: Direction<R>) -> (R::Mask, R::Word) {
+        let view = self.view;
+        R::apart(
+            #[inline(always)]
+            || {
+                self.each(
+                    self.wanted,
+                    R::Word::splat(0),
+                    psi.vector(),
+                    #[inline(always)]
+                    |_, line| view.reached_by_ray(&line),
+                )
+            },
+        )
     }
 
     /// The sights are disjoint but for edges and blocked by each other, so the first that is reached is the one.
@@ -163,17 +213,23 @@ impl<'v, R: Real> Vantage<'v, R> {
         }
     }
 
-    #[inline(always)]
-    fn clear_by_ray(&self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+    #[cold]
+    #[inline(never)]
+    fn clear_by_ray(self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
         let view = self.view;
-        self.each(
-            asked,
-            target,
-            toward,
+        R::apart(
             #[inline(always)]
-            |k, line| view.clear(&line, k).then_some(k),
+            || {
+                self.each(
+                    asked,
+                    target,
+                    toward,
+                    #[inline(always)]
+                    |k, line| view.clear(&line, k).then_some(k),
+                )
+                .0
+            },
         )
-        .0
     }
 
     /// Asks a question about the line of each sample where `asked`.

@@ -149,3 +149,24 @@ fn hits_from_far_and_near_are_finite() {
         }
     }
 }
+
+#[test]
+fn rays_that_lead_nowhere_meet_nothing() {
+    let (nan, inf) = (f64::NAN, f64::INFINITY);
+    let nowhere = [[0.0; 3], [-0.0; 3], [nan; 3], [nan, 1.0, 0.0], [0.0, 1.0, nan], [0.0, inf, 0.0], [1.0, -inf, nan]];
+    let mesh = soup(&mut Draws::new(905), 500, 0.3);
+    for geometry in [Geometry::new(mesh.clone(), Vec::new()), Geometry::brute_force(mesh, Vec::new())] {
+        let somewhere = Ray::new(DVec3::splat(-9.0), DVec3::ONE);
+        let mut rays: Vec<Ray> = nowhere.map(|d| Ray::new(DVec3::splat(0.1), d.into())).to_vec();
+        for ray in &rays {
+            assert_eq!(geometry.vp(ray), None, "{ray:?}");
+            assert!(!geometry.blocked(ray, f64::INFINITY), "{ray:?}");
+        }
+        rays.push(somewhere);
+        let mut hits = vec![geometry.vp(&somewhere); rays.len()];
+        geometry.vp_of(&rays, &mut hits);
+        assert!(hits[..nowhere.len()].iter().all(Option::is_none), "{hits:?}");
+        assert_eq!(hits[nowhere.len()], geometry.vp(&somewhere));
+        assert!(geometry.vp(&somewhere).is_some(), "soup on the way");
+    }
+}

@@ -157,3 +157,19 @@ fn on_a_light_it_is_dark_where_x_looks_out_and_nowhere_else() {
         }
     }
 }
+
+/// Where a corner lies on x's horizon exactly, what is above the horizon is cut there twice, at the same point.
+#[test]
+fn a_light_that_stands_on_the_horizon_by_a_corner_is_blocked() {
+    let mut mesh = Mesh::default();
+    let corners = [[2.0, 0.0, 0.0], [2.0, -1.0, 1.0], [2.0, 0.0, 2.0], [2.0, 1.0, 1.0]];
+    let (triangles, corners) = push_quad(&mut mesh, corners.map(Vec3::from));
+    let blocker = [[1.0, -1.0, 0.1], [1.0, 1.0, 0.1], [1.0, 0.0, 2.0]];
+    push_triangle(&mut mesh, blocker.map(Vec3::from));
+    let light = Target { shape: Shape::Parallelogram { triangles, corners }, sides: Sides::Both };
+    let geometry = Geometry::new(mesh, vec![light]);
+    let frame = Frame::new(DVec3::ZERO, DVec3::Z);
+    let prospect = Prospect::new(&geometry, &frame, 0);
+    assert_eq!((prospect.standing, prospect.blockers.len()), (Standing::Lit, 1));
+    assert_eq!(one_by_one(&geometry, &frame), all_at_once(&geometry, &frame));
+}

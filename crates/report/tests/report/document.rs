@@ -58,7 +58,7 @@ fn json_rows_verdicts_and_rates_have_the_fields_of_the_schema() {
     for field in ["reference", "detectable", "samples_needed", "verdict", "note"] {
         assert!(verdict.contains(&field), "{field}");
     }
-    assert_eq!(keys(&receiver["rates"][0]), ["strategy", "sampler", "slope", "interval", "regime"]);
+    assert_eq!(keys(&receiver["rates"][0]), ["strategy", "sampler", "slope", "interval", "regime", "candidates"]);
 }
 
 #[test]

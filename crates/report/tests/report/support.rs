@@ -32,6 +32,7 @@ pub fn row(strategy: &str, samples: u64, mean: f64, variance: f64) -> Row {
         samples,
         replicates: 1000,
         mean: Colour::from([mean, mean / 2.0, mean / 4.0]),
+        error: None,
         variance_of_mean: Some(of_mean),
         variance_interval: Some([of_mean * 0.96, of_mean * 1.04]),
         variance_exact: None,
@@ -71,6 +72,7 @@ pub fn rate(strategy: &str) -> Rate {
         slope: Some(-1.003),
         interval: Some([-1.033, -0.973]),
         regime: Some("1/N".into()),
+        candidates: vec!["1/N".into()],
         why: Why::new(),
     }
 }

@@ -62,8 +62,8 @@ fn rates_are_pooled_and_regimes_counted() {
     let mut receivers = vec![receiver("x", rows(1.0)), receiver("y", rows(1.0)), receiver("z", rows(1.0))];
     let [one, two, three] = [0, 1, 2].map(|strategy| receivers[1].rates[strategy].clone());
     receivers[1].rates = vec![
-        Rate { slope: None, interval: None, regime: None, ..one },
-        Rate { slope: Some(-1.303), regime: Some("other".into()), ..two },
+        Rate { slope: None, interval: None, regime: None, candidates: Vec::new(), ..one },
+        Rate { slope: Some(-1.303), regime: Some("other".into()), candidates: vec!["other".into()], ..two },
         Rate { interval: None, ..three },
     ];
     let text = text(&document(receivers), Detail::EveryRow);

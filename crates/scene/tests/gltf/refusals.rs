@@ -158,18 +158,6 @@ fn instances_are_counted_before_they_are_made() {
 }
 
 #[test]
-fn emission_by_a_texture_is_refused_and_other_textures_of_emitters_are_not() {
-    let mut file = lit_square();
-    file.json["textures"] = json!([{}]);
-    file.json["materials"][0]["name"] = json!("neon");
-    file.json["materials"][0]["emissiveTexture"] = json!({"index": 0});
-    let expected = r#"test.gltf: material "neon" of "lamp" emits by an emissiveTexture, which is not read; give it"#;
-    assert!(file.refusal().starts_with(expected), "{}", file.refusal());
-    file.json["materials"][0]["emissiveFactor"] = json!([0, 0, 0]);
-    assert!(file.scene().lights.is_empty());
-}
-
-#[test]
 fn compressed_data_that_is_not_required_is_asked_for_without_compression() {
     let mut file = lit_square();
     file.json["accessors"][0].as_object_mut().expect("object").remove("bufferView");

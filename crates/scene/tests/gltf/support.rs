@@ -87,6 +87,16 @@ impl File {
         self.triangles(&SQUARE, &[0, 1, 2, 0, 2, 3], material)
     }
 
+    /// Adds a square with this material and `TEXCOORD_0`: (0, 0) and (1, 0) at its far corners, v toward +Z.
+    pub fn textured_square(&mut self, material: Value) -> usize {
+        let material = self.push("materials", material);
+        let positions = self.vectors(&SQUARE);
+        let coordinates = self.vectors(&SQUARE.map(|[x, _, z]| [x, z]));
+        let indices = self.indices(&[0, 1, 2, 0, 2, 3]);
+        let attributes = json!({"POSITION": positions, "TEXCOORD_0": coordinates});
+        self.mesh(&json!({"attributes": attributes, "indices": indices, "material": material}))
+    }
+
     /// Adds a material that emits.
     pub fn emitter(&mut self, emission: [f64; 3]) -> usize {
         self.push("materials", json!({"emissiveFactor": emission, "pbrMetallicRoughness": {"metallicFactor": 0}}))

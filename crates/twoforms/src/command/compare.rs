@@ -29,6 +29,9 @@ pub fn run(args: &CompareArgs) -> Result<Found> {
         criteria: Criteria { level: args.criteria.level, margin: args.criteria.margin },
     };
     check_size(&experiment, places.len())?;
+    for (sampler, [n, rounded]) in experiment.rounded() {
+        run::note(&args.run, &format!("{sampler}: N = {n} becomes {rounded}"));
+    }
     let total = experiment.samples_per_receiver().saturating_mul(places.len() as u64);
     let bar = progress::bar(total, "samples", &args.run);
     let results = experiment.run(&world, &places, &|drawn| bar.inc(drawn))?;

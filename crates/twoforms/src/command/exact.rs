@@ -4,8 +4,8 @@ use std::time::SystemTime;
 
 use anyhow::Result;
 use twoforms_comparison::exactly::exactly;
+use twoforms_comparison::exactly::with_formula;
 use twoforms_comparison::swept::{default_strategies, swept};
-use twoforms_estimator::strategy::Strategy;
 use twoforms_report::{ExactDocument, ReportError, file};
 
 use crate::args::{ExactArgs, Format};
@@ -27,7 +27,7 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     let bar = progress::bar(places.len() as u64 * u64::from(steps), "receivers", &args.run);
     let progress = |done| bar.inc(done);
     let results = match &args.sweep {
-        None => exactly(&world, &places, &strategies.unwrap_or_else(Strategy::with_exact_variance), &progress),
+        None => exactly(&world, &places, &strategies.unwrap_or_else(with_formula), &progress),
         Some(sweep) => swept(&world, &places, &strategies.unwrap_or_else(default_strategies), sweep, &progress),
     };
     bar.finish_and_clear();

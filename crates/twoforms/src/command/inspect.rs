@@ -1,13 +1,14 @@
 //! `twoforms inspect`: what a scene holds, as twoforms reads it.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use glam::DVec3;
 use serde_json::{Value, json};
 use twoforms_comparison::viewpoint;
 use twoforms_geometry::target::{Sides, Target};
-use twoforms_scene::{Camera, Light, Scene};
+use twoforms_scene::{Camera, Image, Light, Scene};
 
 use crate::args::{InspectArgs, InspectFormat};
 use crate::output::{self, counted, plain};
@@ -28,9 +29,10 @@ fn document(scene: &Scene) -> Value {
     let light = |light: &Light| {
         json!({
             "name": light.name, "targets": light.targets.len(), "area": light.area, "power": light.power(),
-            "radiance": light.radiance.map(f64::from), "sides": sides(light),
+            "radiance": light.radiance.map(f64::from), "sides": sides(light), "textured": light.is_textured(),
         })
     };
+    let image = |image: &Arc<Image>| json!({"name": image.name, "width": image.width, "height": image.height, "bytes": image.bytes()});
     let camera = |camera: &Camera| {
         json!({
             "name": camera.name, "position": camera.position.to_array(), "forward": camera.forward.to_array(),
@@ -57,6 +59,8 @@ fn document(scene: &Scene) -> Value {
         "emitter_triangles": scene.targets.iter().flat_map(Target::triangles).count(),
         "targets": scene.targets.len(),
         "lights": scene.lights.iter().map(light).collect::<Vec<_>>(),
+        "textures": scene.textures.len(),
+        "images": scene.images.iter().map(image).collect::<Vec<_>>(),
         "cameras": scene.cameras.iter().map(camera).collect::<Vec<_>>(),
         "auto_camera": viewpoint::auto(&scene.mesh).as_ref().map(camera),
         "receivers": receivers,
@@ -88,9 +92,10 @@ fn write_text(scene: &Scene, out: &mut String) -> std::fmt::Result {
         let [pr, pg, pb] = light.power();
         writeln!(
             out,
-            "  {}: area {:.6} m², radiance ({r}, {g}, {b}), power ({pr:.4}, {pg:.4}, {pb:.4}), {}, {}",
+            "  {}: area {:.6} m², {} ({r}, {g}, {b}), power ({pr:.4}, {pg:.4}, {pb:.4}), {}, {}",
             plain(&light.name),
             light.area,
+            if light.is_textured() { "textured, mean radiance" } else { "radiance" },
             sides(light),
             counted(light.targets.len(), "target"),
         )?;
@@ -98,12 +103,32 @@ fn write_text(scene: &Scene, out: &mut String) -> std::fmt::Result {
     if scene.lights.len() > LIGHTS_LISTED {
         writeln!(out, "  … and {} more (all with --format json)", scene.lights.len() - LIGHTS_LISTED)?;
     }
+    write_images(scene, out)?;
     write_cameras(scene, out)?;
     write_receivers(scene, out)?;
     if !scene.warnings.is_empty() {
         writeln!(out, "\n{}", counted(scene.warnings.len(), "warning"))?;
     }
     scene.warnings.iter().try_for_each(|warning| writeln!(out, "  {}", plain(warning)))
+}
+
+/// Images that textures show, where there are any.
+fn write_images(scene: &Scene, out: &mut String) -> std::fmt::Result {
+    if scene.images.is_empty() {
+        return Ok(());
+    }
+    let (textures, images) = (counted(scene.textures.len(), "texture"), counted(scene.images.len(), "image"));
+    let bytes: usize = scene.images.iter().map(|image| image.bytes()).sum();
+    writeln!(out, "\n{textures}, {images}, {}", mebibytes(bytes))?;
+    for image in &scene.images {
+        let Image { name, width, height, .. } = image.as_ref();
+        writeln!(out, "  {}: {width} × {height}, {}", plain(name), mebibytes(image.bytes()))?;
+    }
+    Ok(())
+}
+
+fn mebibytes(bytes: usize) -> String {
+    format!("{:.2} MiB", bytes as f64 / f64::from(1 << 20))
 }
 
 fn write_receivers(scene: &Scene, out: &mut String) -> std::fmt::Result {

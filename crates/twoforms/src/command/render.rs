@@ -119,13 +119,13 @@ fn rendering(args: &RenderArgs, [width, height]: ImageSize) -> Result<Rendering>
 
 /// R G B, the strategy's own layer with the variance of one camera sample, and what lies at each pixel's centre.
 fn channels(pixels: &[Pixel], strategy: &str) -> Vec<Channel> {
-    let centre = |pixel: &Pixel, of: fn(&Centre) -> [f64; 3]| pixel.centre.as_ref().map_or([0.0; 3], of);
-    let depth = pixels.iter().map(|pixel| pixel.centre.map_or(0.0, |centre| centre.depth) as f32);
+    let centre = |pixel: &Pixel, of: fn(&Centre) -> [f32; 3]| pixel.centre.as_ref().map_or([0.0; 3], of);
+    let depth = pixels.iter().map(|pixel| pixel.centre.map_or(0.0, |centre| centre.depth));
     let layers = [
-        layer(pixels, "", "RGB", |pixel| pixel.mean),
-        layer(pixels, &format!("{strategy}."), "RGB", |pixel| pixel.mean),
-        layer(pixels, &format!("{strategy}.Variance."), "RGB", |pixel| pixel.variance),
-        layer(pixels, "Albedo.", "RGB", |pixel| centre(pixel, |centre| centre.albedo.map(f64::from))),
+        layer(pixels, "", "RGB", |pixel| rounded(pixel.mean)),
+        layer(pixels, &format!("{strategy}."), "RGB", |pixel| rounded(pixel.mean)),
+        layer(pixels, &format!("{strategy}.Variance."), "RGB", |pixel| rounded(pixel.variance)),
+        layer(pixels, "Albedo.", "RGB", |pixel| centre(pixel, |centre| centre.albedo)),
         layer(pixels, "P.", "XYZ", |pixel| centre(pixel, |centre| centre.position)),
         layer(pixels, "N.", "XYZ", |pixel| centre(pixel, |centre| centre.normal)),
         vec![Channel { name: "depth.Z".to_owned(), samples: depth.collect() }],
@@ -133,11 +133,15 @@ fn channels(pixels: &[Pixel], strategy: &str) -> Vec<Channel> {
     layers.concat()
 }
 
+fn rounded(values: [f64; 3]) -> [f32; 3] {
+    values.map(|value| value as f32)
+}
+
 /// Three channels of one layer.
-fn layer(pixels: &[Pixel], name: &str, letters: &str, values: impl Fn(&Pixel) -> [f64; 3]) -> Vec<Channel> {
+fn layer(pixels: &[Pixel], name: &str, letters: &str, values: impl Fn(&Pixel) -> [f32; 3]) -> Vec<Channel> {
     let channel = |(c, letter): (usize, char)| Channel {
         name: format!("{name}{letter}"),
-        samples: pixels.iter().map(|pixel| values(pixel)[c] as f32).collect(),
+        samples: pixels.iter().map(|pixel| values(pixel)[c]).collect(),
     };
     letters.chars().enumerate().map(channel).collect()
 }

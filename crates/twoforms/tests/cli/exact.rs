@@ -1,7 +1,7 @@
 //! `exact`: what it prints.
 
 use serde_json::Value;
-use twoforms_estimator::strategy::Strategy;
+use twoforms_comparison::exactly::with_formula;
 
 use crate::support::{folder, has_all, names, twoforms};
 
@@ -18,7 +18,7 @@ fn the_fields_of_the_schema_are_there() {
         has_value(&receiver[irradiance]);
     }
     let strategies = receiver["strategies"].as_object().expect("strategies");
-    assert_eq!(strategies.len(), Strategy::with_exact_variance().len());
+    assert_eq!(strategies.len(), with_formula().len());
     strategies.values().for_each(|strategy| has_value(&strategy["variance_of_one"]));
 }
 
@@ -44,7 +44,7 @@ fn nothing_is_random() {
     let csv = |options: &str| twoforms(&format!("{LINE} --format csv {options}")).printed();
     let one = csv("--seed 1 --threads 1");
     assert_eq!(csv("--seed 2 --threads 2"), one);
-    assert_eq!(one.lines().count() - 1, Strategy::with_exact_variance().len());
+    assert_eq!(one.lines().count() - 1, with_formula().len());
 }
 
 #[test]
@@ -57,14 +57,4 @@ fn the_table_and_the_file_hold_the_strategies_asked_for() {
     assert_eq!(twoforms(&format!("{line} -o {}", path.display())).printed(), "");
     assert_eq!(names(&folder), ["exact.txt"]);
     assert_eq!(std::fs::read_to_string(path).expect("a file"), table);
-}
-
-/// A strategy may have an exact variance and no sampler.
-#[test]
-fn what_cannot_be_sampled_points_to_the_exact_command() {
-    let not_sampled = Strategy::with_exact_variance().into_iter().find(|strategy| !strategy.is_sampled());
-    let Some(strategy) = not_sampled else { return };
-    for command in ["compare", "render"] {
-        twoforms(&format!("{command} @cornell-box --strategy {strategy}")).fails(&["no sampler", "twoforms exact"]);
-    }
 }

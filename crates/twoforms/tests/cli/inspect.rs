@@ -1,8 +1,8 @@
 //! `inspect`: what a scene holds.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::support::{has_all, twoforms};
+use crate::support::{folder, has_all, twoforms, written};
 
 #[test]
 fn the_text_lists_triangles_lights_cameras_and_receivers() {
@@ -34,4 +34,43 @@ fn the_document_holds_the_same_for_scripts() {
     assert!((power / (std::f64::consts::PI * area * radiance) - 1.0).abs() < 1e-9, "{light}");
     assert_eq!(document["auto_camera"]["name"], "auto");
     assert_eq!(document["warnings"], json!([]));
+}
+
+/// A PNG of two texels, red and black.
+const IMAGE: &str = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADElEQVR4nGP4zwACAAYBAQB/9VxdAAAAAElFTkSuQmCC";
+
+/// Positions, texture coordinates and indices of the unit square.
+const SQUARE: &str = "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAIA/AACAPwAAAAAAAAAAAAAAAAAAAAAAAAAAAACAPwAAgD8AAIA/AACAPwAAAAAAAAEA\
+    AgAAAAIAAwA=";
+
+/// A square that emits by the image.
+fn sign() -> Value {
+    let accessor = |view: u32, component: u32, count: u32, kind: &str| json!({"bufferView": view, "componentType": component, "count": count, "type": kind});
+    let view = |offset: u32, length: u32| json!({"buffer": 0, "byteOffset": offset, "byteLength": length});
+    json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "sign"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+        "materials": [{"name": "neon", "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
+            "pbrMetallicRoughness": {"metallicFactor": 0}}],
+        "textures": [{"source": 0}],
+        "images": [{"name": "stripes", "uri": format!("data:image/png;base64,{IMAGE}")}],
+        "buffers": [{"byteLength": 92, "uri": format!("data:application/octet-stream;base64,{SQUARE}")}],
+        "bufferViews": [view(0, 48), view(48, 32), view(80, 12)],
+        "accessors": [accessor(0, 5126, 4, "VEC3"), accessor(1, 5126, 4, "VEC2"), accessor(2, 5123, 6, "SCALAR")],
+    })
+}
+
+#[test]
+fn textured_lights_and_their_images_are_shown_and_not_yet_estimated() {
+    let path = written(&folder("sign"), "sign.gltf", &sign().to_string());
+    let text = twoforms(&format!("inspect {path}")).printed();
+    has_all(&text, &["sign: area 1.000000 m², textured, mean radiance (0.5, 0, 0)", "1 texture, 1 image, 0.00 MiB"]);
+    has_all(&text, &["stripes: 2 × 1, 0.00 MiB"]);
+    let document = twoforms(&format!("inspect {path} --format json")).json();
+    assert_eq!(document["images"], json!([{"name": "stripes", "width": 2, "height": 1, "bytes": 8}]));
+    assert_eq!((&document["textures"], &document["lights"][0]["textured"]), (&json!(1), &json!(true)));
+    for command in ["compare", "exact"] {
+        let refused = twoforms(&format!("{command} {path} --at 0,1,0,0,-1,0"));
+        refused.fails(&[r#"material "neon" of "sign" emits by an emissiveTexture"#, "constant emissiveFactor"]);
+    }
 }

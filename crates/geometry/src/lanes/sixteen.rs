@@ -1,134 +1,32 @@
-//! Sixteen samples side by side, in the widest vectors that the machine has.
-//!
-//! [`run`] asks the machine once what it can do and runs a [`Kernel`] in vectors of 512, 256 or 128 bits. Sixteen samples
-//! go together whatever the width, no operation is contracted, and every operation rounds as IEEE 754 says, so the
-//! bits are those of the scalar reference [`f32`] everywhere.
-//!
-//! A kernel and all that it calls on samples must be `#[inline(always)]`: a function that is not inlined is compiled for
-//! the plainest machine.
+//! Sixteen samples side by side: [`Real`] in vectors.
 
 use std::borrow::Borrow;
 use std::fmt;
-use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::{
-    Bytes, Level, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdFrom, SimdMask, SimdWiden, f32x8, f32x16, f64x8,
-    mask32x16, mask64x8, u32x16, u64x8,
+    Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, SimdWiden, f32x16, mask32x16, u32x16, u64x8,
 };
 
+use super::eight::LaneWide;
+use super::proof::proof;
 use crate::real::{Mask, Real, Word};
-use crate::wide::{EIGHT, Wide};
 
 /// Samples side by side.
 const LANES: usize = 16;
 /// Most different indices among sixteen that are looked up one after the other; where there are more, sample by sample.
 const FEW: usize = 4;
 
-/// Something to compute in numbers of any kind.
-pub trait Kernel {
-    /// What comes of it.
-    type Output;
-    /// Computes it. Implementations are `#[inline(always)]`.
-    fn run<R: Real>(self) -> Self::Output;
-}
-
-/// The instructions that a kernel is run with.
-#[derive(Clone, Copy, Debug)]
-pub struct Instructions(Choice);
-
-#[derive(Clone, Copy, Debug)]
-enum Choice {
-    Scalar,
-    Lanes(Level),
-}
-
-impl Instructions {
-    /// One sample after the other: the reference.
-    pub const SCALAR: Self = Self(Choice::Scalar);
-
-    /// The best that this machine has.
-    pub fn best() -> Self {
-        Self(Choice::Lanes(Level::new()))
-    }
-
-    /// All that this machine has, the scalar reference first.
-    pub fn all() -> Vec<Self> {
-        let level = Level::new();
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        let lanes =
-            [level.as_sse2().map(Level::Sse2), level.as_avx2().map(Level::Avx2), level.as_avx512().map(Level::Avx512)];
-        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        let lanes = [Some(level)];
-        let lanes = lanes.into_iter().flatten().map(|level| Self(Choice::Lanes(level)));
-        std::iter::once(Self::SCALAR).chain(lanes).collect()
-    }
-
-    /// Runs a kernel with these instructions.
-    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
-        match self.0 {
-            Choice::Scalar => kernel.run::<f32>(),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Choice::Lanes(Level::Avx512(simd)) => vectorize(simd, kernel),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Choice::Lanes(Level::Avx2(simd)) => vectorize(simd, kernel),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Choice::Lanes(level) => match level.as_sse2() {
-                Some(simd) => vectorize(simd, kernel),
-                None => kernel.run::<f32>(),
-            },
-            #[cfg(target_arch = "aarch64")]
-            Choice::Lanes(Level::Neon(simd)) => vectorize(simd, kernel),
-            #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-            #[allow(unreachable_patterns)]
-            Choice::Lanes(_) => kernel.run::<f32>(),
-        }
-    }
-}
-
-/// Runs a kernel with the best instructions of this machine.
-pub fn run<K: Kernel>(kernel: K) -> K::Output {
-    Instructions::best().run(kernel)
-}
-
-fn vectorize<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {
-    simd.vectorize(
-        #[inline(always)]
-        || kernel.run::<Lanes<S>>(),
-    )
-}
-
-/// The proof that the machine has the instructions S, for operations that start from nothing (constants).
-///
-/// It costs 512-bit vectors nothing, where asking the machine again would cost more than the operation.
-#[inline(always)]
-#[allow(unsafe_code)]
-fn proof<S: Simd>() -> S {
-    const { assert!(size_of::<S>() == 0) };
-    // SAFETY: S is a token without size, so every (zero-sized) value of it is the same value, and one exists: `Lanes<S>`
-    // is private to this file and reaches other code only as the `R` of `Kernel::run` in `vectorize`, which was handed a
-    // token of S. Whoever calls a function of `Lanes<S>` therefore runs on a machine for which a token of S was made.
-    unsafe { std::mem::transmute_copy(&()) }
-}
-
 /// Sixteen numbers.
 #[derive(Clone, Copy)]
-struct Lanes<S: Simd>(f32x16<S>);
+pub(super) struct Lanes<S: Simd>(pub(super) f32x16<S>);
 
 /// Sixteen truth values.
 #[derive(Clone, Copy)]
-struct LaneMask<S: Simd>(mask32x16<S>);
+pub(super) struct LaneMask<S: Simd>(pub(super) mask32x16<S>);
 
 /// Sixteen words.
 #[derive(Clone, Copy)]
-struct LaneWord<S: Simd>(u32x16<S>);
-
-/// Eight wide numbers.
-#[derive(Clone, Copy)]
-struct LaneWide<S: Simd>(f64x8<S>);
-
-/// Eight truth values.
-#[derive(Clone, Copy)]
-struct WideMask<S: Simd>(mask64x8<S>);
+pub(super) struct LaneWord<S: Simd>(pub(super) u32x16<S>);
 
 impl<S: Simd> LaneWord<S> {
     #[inline(always)]
@@ -321,6 +219,10 @@ impl<S: Simd> Real for Lanes<S> {
         self.0.store_slice(&mut numbers[..LANES]);
     }
     #[inline(always)]
+    fn apart<T>(f: impl FnOnce() -> T) -> T {
+        proof::<S>().vectorize(f)
+    }
+    #[inline(always)]
     fn widen(self) -> [LaneWide<S>; 2] {
         let (low, high) = self.0.widen();
         [LaneWide(low), LaneWide(high)]
@@ -383,6 +285,14 @@ impl<S: Simd> Word for LaneWord<S> {
     fn wrapping_sub(self, other: Self) -> Self {
         Self(self.0 - other.0)
     }
+    #[inline(always)]
+    fn wrapping_mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+    #[inline(always)]
+    fn sum(self) -> u32 {
+        self.0.reduce_sum()
+    }
     /// Even and odd words are multiplied apart, in 64 bits.
     #[inline(always)]
     fn multiply_wide(self, factor: u32) -> (Self, Self) {
@@ -393,108 +303,6 @@ impl<S: Simd> Word for LaneWord<S> {
         let high_words = (even >> 32) | (odd & !low);
         let low_words = (even & low) | (odd << 32);
         (Self(high_words.bitcast()), Self(low_words.bitcast()))
-    }
-}
-
-impl<S: Simd> Wide for LaneWide<S> {
-    type Mask = WideMask<S>;
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self(f64x8::splat(proof(), value))
-    }
-    #[inline(always)]
-    fn load(values: &[f64]) -> Self {
-        Self(f64x8::from_slice(proof(), &values[..EIGHT]))
-    }
-    #[inline(always)]
-    fn widen(values: &[f32]) -> Self {
-        let narrow = f32x8::from_slice(proof::<S>(), &values[..EIGHT]);
-        let (low, high) = narrow.widen();
-        Self(low.combine(high))
-    }
-    #[inline(always)]
-    fn store(self, values: &mut [f64]) {
-        self.0.store_slice(&mut values[..EIGHT]);
-    }
-    #[inline(always)]
-    fn to_array(self) -> [f64; EIGHT] {
-        *self.0
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> WideMask<S> {
-        WideMask(self.0.simd_lt(other.0))
-    }
-    #[inline(always)]
-    fn equals(self, other: Self) -> WideMask<S> {
-        WideMask(self.0.simd_eq(other.0))
-    }
-    #[inline(always)]
-    fn select(mask: WideMask<S>, yes: Self, no: Self) -> Self {
-        Self(mask.0.select(yes.0, no.0))
-    }
-}
-
-impl<S: Simd> Mask for WideMask<S> {
-    #[inline(always)]
-    fn splat(value: bool) -> Self {
-        Self(mask64x8::splat(proof(), value))
-    }
-    #[inline(always)]
-    fn any(self) -> bool {
-        self.0.any_true()
-    }
-    #[inline(always)]
-    fn count(self) -> u32 {
-        self.0.to_bitmask().count_ones()
-    }
-}
-
-macro_rules! lane_by_lane {
-    ($($operation:ident $function:ident $lanes:ident),*) => {$(
-        impl<S: Simd> $operation for $lanes<S> {
-            type Output = Self;
-            #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                Self(self.0.$function(other.0))
-            }
-        }
-    )*};
-}
-lane_by_lane!(Add add Lanes, Sub sub Lanes, Mul mul Lanes, Div div Lanes, BitXor bitxor LaneWord);
-lane_by_lane!(Add add LaneWide, Sub sub LaneWide, Mul mul LaneWide);
-lane_by_lane!(BitAnd bitand LaneMask, BitOr bitor LaneMask, BitAnd bitand WideMask, BitOr bitor WideMask);
-
-impl<S: Simd> Neg for Lanes<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-macro_rules! negations {
-    ($($mask:ident),*) => {$(
-        impl<S: Simd> Not for $mask<S> {
-            type Output = Self;
-            #[inline(always)]
-            fn not(self) -> Self {
-                Self(!self.0)
-            }
-        }
-    )*};
-}
-negations!(LaneMask, WideMask);
-
-impl<S: Simd> fmt::Debug for LaneWide<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.to_array().fmt(f)
-    }
-}
-
-impl<S: Simd> fmt::Debug for WideMask<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:08b}", self.0.to_bitmask())
     }
 }
 

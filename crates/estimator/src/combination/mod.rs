@@ -1,0 +1,11 @@
+//! Combinations: estimators made of several techniques, or of one technique and what is known of the light unhidden.
+
+mod control;
+mod mis;
+mod mixture;
+mod resampled;
+
+pub(crate) use control::{ControlVariate, Ratio, Shadow};
+pub(crate) use mis::Mis;
+pub(crate) use mixture::{Mixture, Split};
+pub(crate) use resampled::Resampled;

@@ -1,0 +1,121 @@
+//! Strategies with what they need of a scene, and of one x.
+
+use super::{AREA, Strategy, Team, Weighting};
+use crate::combination::{ControlVariate, Mis, Mixture, Ratio, Resampled, Shadow, Split};
+use crate::density::{AreaOnLights, ByArea, OnLights, Ready};
+use crate::estimator::Estimator;
+use crate::lights::Lights;
+use crate::query::Query;
+use crate::technique::{Prepared as PreparedTechnique, Technique};
+use twoforms_geometry::view::View;
+
+/// A strategy with what it needs of one scene.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    strategy: Strategy,
+    techniques: Vec<PreparedTechnique>,
+    points: AreaOnLights,
+}
+
+/// What is known of the light at x beforehand, for strategies that use it.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// α_i of the techniques of the default team with optimal weights, RGB.
+    pub alpha: Option<[[f64; 3]; 2]>,
+}
+
+impl Strategy {
+    /// Builds what the strategy needs once per scene. The scene must have a light.
+    pub fn prepare(self, lights: &Lights) -> Prepared {
+        let techniques = self.techniques().iter().map(|technique| technique.prepare(lights)).collect();
+        Prepared { strategy: self, techniques, points: AreaOnLights::prepare(lights, AREA.selection) }
+    }
+
+    /// Whether it uses the α that are known beforehand: [`Known::alpha`].
+    pub fn needs_alpha(self) -> bool {
+        matches!(self, Self::Mis(Weighting::Optimal, _))
+    }
+
+    /// Why the strategy can't be sampled at all, if it can't.
+    pub fn impossible(self) -> Option<String> {
+        match self {
+            Self::Mis(Weighting::Optimal, team) if team != Team::default() => Some(format!(
+                "\"{self}\" needs the α of its team, which are known for {AREA} with hemisphere/cosine alone"
+            )),
+            _ => None,
+        }
+    }
+
+    /// Why the strategy can't be sampled in an image, if it can't.
+    pub fn impossible_in_images(self) -> Option<String> {
+        let needs = || format!("\"{self}\" needs the α of each point, which an image does not know: take mis/balance");
+        self.impossible().or_else(|| self.needs_alpha().then(needs))
+    }
+
+    /// Pairs of random numbers that a sample takes.
+    pub fn pairs(self) -> usize {
+        match self {
+            Self::Mis(_, team) => team.members().map(|member| member.samples as usize).sum(),
+            Self::Resampled(candidates) => candidates as usize + 1,
+            _ => 1,
+        }
+    }
+
+    /// The techniques that it draws samples of.
+    pub fn techniques(self) -> Vec<Technique> {
+        match self {
+            Self::Single(technique) => vec![technique],
+            Self::Mis(_, team) => team.members().map(|member| member.technique).collect(),
+            Self::Mixture(_, pair) => pair.to_vec(),
+            Self::Resampled(_) | Self::Ratio | Self::ControlVariate => vec![AREA],
+        }
+    }
+}
+
+impl Prepared {
+    /// Which strategy it is.
+    pub fn strategy(&self) -> Strategy {
+        self.strategy
+    }
+
+    /// Whether each x needs an estimator of its own, so that a view of many x has none.
+    pub fn depends_on_x(&self) -> bool {
+        let by_itself =
+            matches!(self.strategy, Strategy::Ratio | Strategy::ControlVariate) || self.strategy.needs_alpha();
+        by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
+    }
+
+    /// The strategy's estimator at x.
+    ///
+    /// # Panics
+    /// When the strategy needs α and `known` has none.
+    pub fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Box<dyn Estimator + 'a> {
+        let at = |k: usize| self.techniques[k].at(view, query);
+        match self.strategy {
+            Strategy::Single(_) => self.techniques[0].boxed(view, query),
+            Strategy::Mis(weighting, team) => {
+                let team = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
+                let alpha = known.alpha.iter().flatten().map(|alpha| alpha.map(|alpha| alpha as f32));
+                let alpha = if weighting == Weighting::Optimal { alpha.collect() } else { Vec::new() };
+                assert!(weighting != Weighting::Optimal || !alpha.is_empty(), "optimal weights without α");
+                Box::new(Mis { view, query, team, weighting, alpha })
+            }
+            Strategy::Mixture(share, _) => {
+                Box::new(Mixture { view, query, pair: [at(0), at(1)], split: Split::new(share) })
+            }
+            Strategy::Resampled(candidates) => {
+                Box::new(Resampled { view, query, density: self.points(view, query), candidates })
+            }
+            Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query) }),
+            Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query) }),
+        }
+    }
+
+    fn points(&self, view: &View, query: &Query) -> OnLights<'_, ByArea> {
+        self.points.at(view, query.lights())
+    }
+
+    fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {
+        Shadow { view, query, density: self.points(view, query), unoccluded: query.unoccluded(view) }
+    }
+}

@@ -1,0 +1,97 @@
+//! What a surface is at a point.
+
+use glam::DVec2;
+
+use crate::mapping::Mapping;
+use crate::material::{Alpha, Material};
+use crate::scene::Scene;
+use crate::surface::Surface;
+
+/// What a surface is at a point: factors times textures, as glTF 2.0 multiplies them (section 3.9), and vertex colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Appearance {
+    /// Linear RGB: the factor × the texture × the vertex colour.
+    pub base_color: [f32; 3],
+    /// How much of the light it stops, after `alphaMode`: 1 where opaque, 0 or 1 where masked, else the product of
+    /// factor, texture and vertex colour.
+    pub alpha: f32,
+    /// How far it is a metal, in [0, 1].
+    pub metallic: f32,
+    /// Perceptual roughness in [0, 1].
+    pub roughness: f32,
+    /// Radiance `L_e` (linear RGB) that leaves it on the sides that emit.
+    pub emission: [f32; 3],
+}
+
+impl Appearance {
+    /// Diffuse albedo ρ (linear RGB): base colour × (1 − metallic).
+    pub fn albedo(&self) -> [f32; 3] {
+        self.base_color.map(|base| base * (1.0 - self.metallic))
+    }
+}
+
+impl Scene {
+    /// What the surface is at the point (1 − b₁ − b₂) a + b₁ b + b₂ c of `triangle` = abc of the mesh.
+    pub fn appearance_at(&self, triangle: u32, [b1, b2]: [f64; 2]) -> Appearance {
+        let surface = self.surface_of(triangle);
+        let material = &self.materials[surface.material];
+        let Some(attributes) = &surface.attributes else {
+            return material.appearance(
+                material.base_color,
+                [material.metallic, material.roughness],
+                material.emission,
+            );
+        };
+        let (vertices, weights) = (self.vertices_in(surface, triangle), [1.0 - b1 - b2, b1, b2]);
+        let texel = |mapping: &Option<Mapping>| {
+            let mapping = mapping.as_ref()?;
+            let corners = attributes.coordinates(mapping.set, vertices)?;
+            let uv: DVec2 = corners.iter().zip(weights).map(|(&corner, weight)| corner * weight).sum();
+            Some(mapping.at(&self.textures, uv))
+        };
+        let white = [1.0; 4];
+        let base = texel(&material.base_color_texture).unwrap_or(white);
+        let color = attributes.colors(vertices).map_or(white, |colors| mean(&colors, weights));
+        let [_, rough, metal, _] = texel(&material.metallic_roughness_texture).unwrap_or(white);
+        let [red, green, blue, _] = texel(&material.emissive_texture).unwrap_or(white);
+        let base = product(product(material.base_color, base), color);
+        let emission = product(material.emission, [red, green, blue]);
+        material.appearance(base, [material.metallic * metal, material.roughness * rough], emission)
+    }
+
+    /// Whether `triangle` is the same all over: its material shows no texture on it, and its vertices have no colours.
+    pub fn is_uniform(&self, triangle: u32) -> bool {
+        self.surface_of(triangle).attributes.is_none()
+    }
+
+    /// The vertices of `triangle` among those of its surface.
+    pub(crate) fn vertices_in(&self, surface: &Surface, triangle: u32) -> [usize; 3] {
+        self.mesh.triangles[triangle as usize].map(|vertex| (vertex - surface.vertices.start) as usize)
+    }
+}
+
+impl Material {
+    fn appearance(
+        &self,
+        [red, green, blue, alpha]: [f32; 4],
+        [metallic, roughness]: [f32; 2],
+        emission: [f32; 3],
+    ) -> Appearance {
+        let alpha = match self.alpha {
+            Alpha::Opaque => 1.0,
+            Alpha::Mask(cutoff) if alpha >= cutoff => 1.0,
+            Alpha::Mask(_) => 0.0,
+            Alpha::Blend => alpha,
+        };
+        Appearance { base_color: [red, green, blue], alpha, metallic, roughness, emission }
+    }
+}
+
+fn product<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
+    std::array::from_fn(|i| a[i] * b[i])
+}
+
+fn mean(corners: &[[f32; 4]; 3], weights: [f64; 3]) -> [f32; 4] {
+    let channel = |c: usize| corners.iter().zip(weights).map(|(corner, w)| f64::from(corner[c]) * w).sum::<f64>();
+    std::array::from_fn(|c| channel(c) as f32)
+}

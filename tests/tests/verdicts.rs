@@ -21,7 +21,7 @@ fn places(stage: &Stage) -> Vec<Place> {
 
 fn verdicts(stage: &Stage, places: &[Place], seed: u64, replicates: u32) -> Vec<Verdict> {
     let experiment = Experiment {
-        strategies: Strategy::defaults(),
+        strategies: Strategy::all().into_iter().filter(|strategy| !strategy.is_biased()).collect(),
         samplers: vec![Sampler::Independent],
         samples: vec![16],
         replicates,
@@ -89,6 +89,7 @@ fn the_samples_asked_for_decide() {
     let then = verdicts(&stage, place, 2, replicates);
     assert!(then.iter().all(|verdict| verdict.verdict == "unbiased"), "after {replicates}: {then:#?}");
     for (before, after) in first.iter().zip(&then) {
-        assert!(after.detectable <= before.detectable, "{before:#?} {after:#?}");
+        let certain = before.note == "nothing varies" && after.detectable == before.detectable;
+        assert!(certain || after.detectable < before.detectable, "{before:#?} {after:#?}");
     }
 }

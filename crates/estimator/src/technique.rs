@@ -101,7 +101,7 @@ macro_rules! techniques {
             pub(crate) fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Local<'a> {
                 match self {
                     $(Self::$kind(density) => {
-                        Local::$kind(Single::new(view, query, density.at(view, query.lights())))
+                        Local::$kind(Single::new(view, query, density.at(view, query)))
                     })*
                 }
             }

@@ -62,7 +62,7 @@ impl At<'_> {
     {
         let begin = Instant::now();
         let ready = D::prepare(lights, technique.selection);
-        let density = ready.at(self.view, lights);
+        let density = ready.at(self.view, self.query);
         let set_up = begin.elapsed().as_secs_f64();
         let estimator = Single::<F, _>::new(self.view, self.query, density);
         let draws = Draws { key: Key::new([7]), stream: [self.samples, 0] };

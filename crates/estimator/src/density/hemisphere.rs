@@ -10,6 +10,7 @@ use twoforms_geometry::view::{Vantage, View};
 use super::{Density, Ready};
 use crate::lights::Lights;
 use crate::measure::{Aim, Pdf, Sample, SolidAngle};
+use crate::query::Query;
 use crate::selection::Selection;
 use crate::xi::Xi;
 
@@ -76,7 +77,7 @@ macro_rules! ready_everywhere {
                 false
             }
 
-            fn at(&self, _: &View, _: &Lights) -> Self {
+            fn at(&self, _: &View, _: &Query) -> Self {
                 *self
             }
         }

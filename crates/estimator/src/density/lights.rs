@@ -85,7 +85,8 @@ impl Ready for AreaOnLights {
         self.everywhere.is_none()
     }
 
-    fn at<'a>(&'a self, view: &View, lights: &Lights) -> OnLights<'a, ByArea> {
+    fn at<'a>(&'a self, view: &View, query: &Query) -> OnLights<'a, ByArea> {
+        let lights = query.lights();
         let at_x = || Picker::new(self.selection, lights, lights.areas(), || lights.contributions(view));
         let picker = self.everywhere.as_ref().map_or_else(|| Cow::Owned(at_x()), Cow::Borrowed);
         OnLights { picker, spread: ByArea }
@@ -97,7 +98,7 @@ impl Ready for AreaOnLights {
     {
         match query.lights().areas() {
             &[area] => Box::new(Single::<F, _>::new(view, query, OnOneTarget::new(area))),
-            _ => Box::new(Single::<F, _>::new(view, query, self.at(view, query.lights()))),
+            _ => Box::new(Single::<F, _>::new(view, query, self.at(view, query))),
         }
     }
 }

@@ -55,8 +55,8 @@ pub trait Ready: Sized + Send + Sync {
     /// Whether each x has a density of its own, so that a view of many x has none.
     fn depends_on_x(&self) -> bool;
 
-    /// The density at x.
-    fn at<'a>(&'a self, view: &View, lights: &Lights) -> Self::At<'a>;
+    /// The density at x of points that estimate `query`.
+    fn at<'a>(&'a self, view: &View, query: &Query) -> Self::At<'a>;
 
     /// The estimator of `query` at x by a formulation and this density: with that of [`Ready::at`], or with a simpler one that
     /// draws the same points.
@@ -64,6 +64,6 @@ pub trait Ready: Sized + Send + Sync {
     where
         F: Formulation<Measure = Self::Measure> + 'a,
     {
-        Box::new(Single::<F, _>::new(view, query, self.at(view, query.lights())))
+        Box::new(Single::<F, _>::new(view, query, self.at(view, query)))
     }
 }

@@ -13,6 +13,7 @@ use super::lights::{OnLights, Spread};
 use super::sector::{self, sectors};
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
+use crate::query::Query;
 use crate::selection::{Picker, Piece, Selection};
 
 const DIRECTION: usize = sector::ROW;
@@ -96,8 +97,9 @@ impl Ready for ProjectedSolidAngleOnLights {
         true
     }
 
-    fn at<'a>(&'a self, view: &View, lights: &Lights) -> OnLights<'a, ByProjectedSolidAngle> {
+    fn at<'a>(&'a self, view: &View, query: &Query) -> OnLights<'a, ByProjectedSolidAngle> {
         let (spread, pieces) = ByProjectedSolidAngle::new(view);
+        let lights = query.lights();
         let picker = Picker::over(self.0, lights, &pieces, || lights.contributions(view));
         OnLights { picker: Cow::Owned(picker), spread }
     }

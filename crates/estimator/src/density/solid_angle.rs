@@ -13,6 +13,7 @@ use super::lights::{OnLights, Spread};
 use super::spherical_triangle::{self, SphericalTriangle};
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
+use crate::query::Query;
 use crate::selection::{Picker, Piece, Selection};
 
 const DIRECTION: usize = spherical_triangle::ROW;
@@ -110,8 +111,9 @@ impl Ready for SolidAngleOnLights {
         true
     }
 
-    fn at<'a>(&'a self, view: &View, lights: &Lights) -> OnLights<'a, BySolidAngle> {
+    fn at<'a>(&'a self, view: &View, query: &Query) -> OnLights<'a, BySolidAngle> {
         let (spread, pieces) = BySolidAngle::new(view);
+        let lights = query.lights();
         let picker = Picker::over(self.0, lights, &pieces, || lights.contributions(view));
         OnLights { picker: Cow::Owned(picker), spread }
     }

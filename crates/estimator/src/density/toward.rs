@@ -10,6 +10,7 @@ use super::lights::{AreaOnLights, ByArea, OnLights};
 use super::{Density, Ready};
 use crate::lights::Lights;
 use crate::measure::{ANYWHERE, Aim, Pdf, Sample, SolidAngle};
+use crate::query::Query;
 use crate::selection::Selection;
 use crate::xi::Xi;
 
@@ -58,8 +59,8 @@ impl Ready for TowardPreparedLights {
         self.0.depends_on_x()
     }
 
-    fn at<'a>(&'a self, view: &View, lights: &Lights) -> TowardLights<'a> {
-        TowardLights { lights: self.0.at(view, lights) }
+    fn at<'a>(&'a self, view: &View, query: &Query) -> TowardLights<'a> {
+        TowardLights { lights: self.0.at(view, query) }
     }
 }
 
@@ -127,7 +128,7 @@ impl Ready for TowardLightsMarginally {
         true
     }
 
-    fn at<'a>(&'a self, view: &View, lights: &Lights) -> TowardLightsMarginal<'a> {
-        TowardLightsMarginal { lights: self.0.at(view, lights) }
+    fn at<'a>(&'a self, view: &View, query: &Query) -> TowardLightsMarginal<'a> {
+        TowardLightsMarginal { lights: self.0.at(view, query) }
     }
 }

@@ -112,7 +112,7 @@ impl Prepared {
     }
 
     fn points(&self, view: &View, query: &Query) -> OnLights<'_, ByArea> {
-        self.points.at(view, query.lights())
+        self.points.at(view, query)
     }
 
     fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {

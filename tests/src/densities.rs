@@ -4,8 +4,8 @@ use twoforms_estimator::density::{
     AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
     TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
-use twoforms_estimator::lights::Lights;
 use twoforms_estimator::measure::Measure;
+use twoforms_estimator::query::Query;
 use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_geometry::view::View;
 
@@ -21,34 +21,34 @@ pub trait Visitor {
 
 /// Hands the density of `technique` to the visitor. A technique that is new does not compile here until its density has a
 /// domain to be tested on.
-pub fn visit<V: Visitor>(technique: Technique, lights: &Lights, view: &View, visitor: V) -> V::Output {
+pub fn visit<V: Visitor>(technique: Technique, query: &Query, view: &View, visitor: V) -> V::Output {
     let Technique { kind, selection } = technique;
     match kind {
         Kind::HemisphereUniform => visitor.visit(view, &UniformHemisphere, &HemisphereCells),
         Kind::HemisphereCosine => visitor.visit(view, &CosineHemisphere, &HemisphereCells),
         Kind::HemisphereTowardLights => {
-            let ready = TowardPreparedLights::prepare(lights, selection);
-            let density = ready.at(view, lights);
+            let ready = TowardPreparedLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::new(view, &density.lights.picker))
         }
         Kind::HemisphereTowardLightsMarginal => {
-            let ready = TowardLightsMarginally::prepare(lights, selection);
-            let density = ready.at(view, lights);
+            let ready = TowardLightsMarginally::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
             visitor.visit(view, &density, &LitDirections::new(view, &density.lights.picker))
         }
         Kind::AreaUniform => {
-            let ready = AreaOnLights::prepare(lights, selection);
-            let density = ready.at(view, lights);
+            let ready = AreaOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::new(view, &density.picker))
         }
         Kind::AreaSolidAngle => {
-            let ready = SolidAngleOnLights::prepare(lights, selection);
-            let density = ready.at(view, lights);
+            let ready = SolidAngleOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
         }
         Kind::AreaProjectedSolidAngle => {
-            let ready = ProjectedSolidAngleOnLights::prepare(lights, selection);
-            let density = ready.at(view, lights);
+            let ready = ProjectedSolidAngleOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
         }
     }

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use twoforms_estimator::density::Density;
 use twoforms_estimator::measure::{Measure, Sample};
+use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::selection::Selection;
 use twoforms_estimator::strategy::Strategy;
@@ -36,7 +37,15 @@ where
             let random = Sampler::ALL.iter().copied().filter(|sampler| sampler.is_random());
             for sampler in random.filter(|sampler| all || *sampler == Sampler::Independent) {
                 let name = format!("{case} {technique} {sampler}");
-                found.push((name, visit(technique, &world.lights, &view, visitor(case, technique.into(), sampler))));
+                found.push((
+                    name,
+                    visit(
+                        technique,
+                        &Query::irradiance(&world.lights),
+                        &view,
+                        visitor(case, technique.into(), sampler),
+                    ),
+                ));
             }
         }
         found

@@ -79,7 +79,7 @@ fn through_both(case: &Case, selection: Selection) -> Comparison {
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let query = Query::irradiance(&world.lights);
     let ready = AreaOnLights::prepare(&world.lights, selection);
-    let lights = ready.at(&view, &world.lights);
+    let lights = ready.at(&view, &Query::irradiance(&world.lights));
     let draws =
         Samples::new(SEED, &case.place, Strategy::from((Kind::AreaUniform, selection)), Sampler::Independent, N);
     Comparison::of((0..N).filter_map(|index| {
@@ -116,7 +116,7 @@ fn a_density_goes_to_the_other_measure_and_back() {
         let world = &case.stage.world;
         let view = View::new(&world.geometry, case.place.frame(), Effort::Cast);
         let ready = AreaOnLights::prepare(&world.lights, Selection::Together);
-        let lights = ready.at(&view, &world.lights);
+        let lights = ready.at(&view, &Query::irradiance(&world.lights));
         let strategy = Strategy::from(Kind::AreaUniform);
         let draws = Samples::new(SEED, &case.place, strategy, Sampler::Independent, N);
         for index in 0..N {

@@ -6,9 +6,10 @@
 //! intervals `[lo_k, hi_k]` of half-width `s_k = ln(hi_k/lo_k)/2`, receivers and strategies taken as independent:
 //! `s = √(Σ s_k²)/K` for one strategy, `√(s_a² + s_b²)` for a ratio.
 //!
-//! A variance of zero has no logarithm. Receivers that no strategy finds any light at are left out; so is every
-//! receiver where some strategy has no positive variance, unless that strategy has none anywhere: then it is set
-//! apart, as constant (right without chance) or as one whose samples all missed the lights.
+//! A variance of zero has no logarithm, and one that is all rounding has one that says nothing. Receivers that no strategy
+//! finds any light at are left out. A strategy that is constant somewhere (right without chance, but for the rounding of
+//! binary32) is set apart, and so is one whose samples all missed the lights; the others are pooled over the receivers
+//! where all of them have a variance.
 
 use twoforms_comparison::result::{ReceiverResult, Row};
 
@@ -22,8 +23,8 @@ pub(crate) struct Ranking<'a> {
     pub of: usize,
     /// Those with a variance, lowest first.
     pub ranked: Vec<Pooled>,
-    /// Those with light and no variance, at every lit receiver.
-    pub constant: Vec<String>,
+    /// Those with light and no variance at some receiver, and at how many.
+    pub constant: Vec<(String, usize)>,
     /// Those whose samples never met a light.
     pub missed: Vec<String>,
 }
@@ -64,7 +65,7 @@ struct Candidate<'a> {
 enum Standing {
     /// No sample met a light.
     Missed,
-    /// All estimates are equal, and not zero.
+    /// All estimates are equal but for rounding, and not zero.
     Constant,
     /// The estimates differ.
     Spread,
@@ -82,8 +83,15 @@ impl<'a> Ranking<'a> {
         if lit.is_empty() {
             return Err(Unranked::Dark);
         }
-        let (constant, others) = set_apart(candidates, &lit, Standing::Constant);
-        let (missed, contenders) = set_apart(others, &lit, Standing::Missed);
+        let count = |candidate: &Candidate, standing_so: Standing| {
+            lit.iter().filter(|&&r| standing(candidate.rows[r]) == standing_so).count()
+        };
+        let (constant, others): (Vec<_>, Vec<_>) =
+            candidates.into_iter().partition(|candidate| count(candidate, Standing::Constant) > 0);
+        let constant = constant.into_iter().map(|one| (one.name.clone(), count(&one, Standing::Constant))).collect();
+        let (missed, contenders): (Vec<_>, Vec<_>) =
+            others.into_iter().partition(|candidate| count(candidate, Standing::Missed) == lit.len());
+        let missed = missed.into_iter().map(|candidate| candidate.name).collect();
         let has_spread =
             |r: &usize| contenders.iter().all(|candidate| standing(candidate.rows[*r]) == Standing::Spread);
         let pooled: Vec<usize> = lit.into_iter().filter(has_spread).collect();
@@ -168,17 +176,14 @@ fn find<'a>(receiver: &'a ReceiverResult, (strategy, sampler): (&str, &str), sam
     receiver.rows.iter().find(|row| row.samples == samples && row.strategy == strategy && row.sampler == sampler)
 }
 
-/// Names of the candidates that stand as `apart` at every lit receiver, and the other candidates.
-fn set_apart<'a>(candidates: Vec<Candidate<'a>>, lit: &[usize], apart: Standing) -> (Vec<String>, Vec<Candidate<'a>>) {
-    let (set_apart, others): (Vec<_>, Vec<_>) =
-        candidates.into_iter().partition(|candidate| lit.iter().all(|&r| standing(candidate.rows[r]) == apart));
-    (set_apart.into_iter().map(|candidate| candidate.name).collect(), others)
-}
+/// Standard deviation of one sample, as a share of its mean, that rounding to binary32 can make.
+const ROUNDING: f64 = 1e-6;
 
 fn standing(row: &Row) -> Standing {
+    let mean = row.mean.luminance;
     match row.variance_of_mean {
-        _ if row.mean.luminance == 0.0 => Standing::Missed,
-        Some(0.0) => Standing::Constant,
+        _ if mean == 0.0 => Standing::Missed,
+        Some(variance) if variance * row.samples as f64 <= (ROUNDING * mean).powi(2) => Standing::Constant,
         Some(_) => Standing::Spread,
         None => Standing::Unknown,
     }

@@ -29,14 +29,30 @@ pub fn sentence(document: &Document) -> String {
     }
 }
 
-/// Names those without any variance.
+/// Names those without any variance, and at how many receivers if not at all of them.
 fn apart(ranking: &Ranking) -> String {
-    match (&ranking.constant[..], &ranking.ranked[..]) {
-        ([], _) => String::new(),
-        (names, []) => format!("{} had no variance at all {}", list(names), place(ranking, false)),
-        (names, [_]) => format!("{} had no variance at all; ", list(names)),
-        (names, _) => format!("{} had no variance at all; of the others, ", list(names)),
+    let said = constant(ranking);
+    match (&said[..], &ranking.ranked[..]) {
+        ("", _) => String::new(),
+        (said, []) => format!("{said} {}", place(ranking, false)),
+        (said, [_]) => format!("{said}; "),
+        (said, _) => format!("{said}; of the others, "),
     }
+}
+
+/// `a and b had no variance at all; c had none at 8 of 9 receivers`.
+fn constant(ranking: &Ranking) -> String {
+    let mut counts: Vec<usize> = ranking.constant.iter().map(|(_, count)| *count).collect();
+    counts.sort_unstable_by(|a, b| b.cmp(a));
+    counts.dedup();
+    let clause = |count: &usize| {
+        let of_count = ranking.constant.iter().filter(|(_, other)| other == count);
+        let names = list(&of_count.map(|(name, _)| name.clone()).collect::<Vec<_>>());
+        let all = *count == ranking.of;
+        let place = if all { "at all".into() } else { format!("at {count} of {} receivers", ranking.of) };
+        format!("{names} had no variance {place}")
+    };
+    counts.iter().map(clause).collect::<Vec<_>>().join("; ")
 }
 
 /// What the ranking says.

@@ -88,6 +88,16 @@ fn no_variance_at_all_is_named_apart() {
 }
 
 #[test]
+fn a_strategy_that_varies_by_rounding_alone_is_no_factor() {
+    let rounding = |scale: f64| row("exact", 16, 1.0, scale * 1e-14);
+    let at = |first: Row| receiver("x", vec![first, row("a", 16, 1.0, 1.0), row("b", 16, 1.0, 4.0)]);
+    let sentence = of(vec![at(rounding(1.0)), at(rounding(30.0)), at(row("exact", 16, 1.0, 0.5))]);
+    let expected = "exact had no variance at 2 of 3 receivers; of the others, a had the lowest variance: 4.0";
+    assert!(sentence.starts_with(expected), "{sentence}");
+    assert!(sentence.contains("over 3 receivers"), "{sentence}");
+}
+
+#[test]
 fn a_strategy_that_met_no_light_does_not_win() {
     let rows = vec![constant("hemisphere/uniform", 0.0), row("a", 16, 1.0, 1.0), row("b", 16, 1.0, 4.0)];
     let sentence = of(vec![receiver("floor", rows)]);

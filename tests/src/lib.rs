@@ -4,7 +4,6 @@ pub mod built;
 pub mod costs;
 pub mod densities;
 pub mod domain;
-pub mod figure;
 pub mod samples;
 pub mod scenes;
 pub mod statistics;

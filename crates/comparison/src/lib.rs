@@ -16,6 +16,7 @@ pub mod result;
 mod rows;
 pub mod statistics;
 pub mod sweep;
+pub mod sweep_text;
 pub mod swept;
 pub mod verdict;
 pub mod viewpoint;

@@ -16,7 +16,7 @@ use clap::Parser;
 use args::{Args, Command};
 use command::compare::Found;
 
-/// 0: done · 1: the input or the run failed · 2: wrong usage (chosen by clap) · 3: a check found a biased estimator.
+/// 0: done · 1: the input or the run failed · 2: wrong usage (chosen by clap) · 3: a check found a biased estimator, or a reproduction that differs.
 fn main() -> ExitCode {
     let args = Args::parse();
     let nothing = |()| Found::Nothing;
@@ -24,12 +24,13 @@ fn main() -> ExitCode {
         Command::Compare(compare) => command::compare::run(compare),
         Command::Exact(exact) => command::exact::run(exact).map(nothing),
         Command::Render(render) => command::render::run(render).map(nothing),
+        Command::Reproduce(reproduce) => command::reproduce::list_or_run(reproduce),
         Command::Inspect(inspect) => command::inspect::run(inspect).map(nothing),
         Command::Completions { shell } => command::completions::run(*shell).map(nothing).map_err(Into::into),
     };
     match done {
         Ok(Found::Nothing) => ExitCode::SUCCESS,
-        Ok(Found::Bias) => ExitCode::from(3),
+        Ok(Found::Fault) => ExitCode::from(3),
         Err(error) if output::reader_left(&error) => ExitCode::SUCCESS,
         Err(error) => {
             output::say(&format!("twoforms: {error:#}"));

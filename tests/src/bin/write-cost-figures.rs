@@ -7,8 +7,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use twoforms_report::figure::{self, Axis, Figure, Line, Scale};
 use twoforms_tests::costs::{Asked, Cost, Preparation, prepared};
-use twoforms_tests::figure::{self, Axis, Figure, Line};
 use twoforms_tests::terrain::Terrain;
 use twoforms_tests::worlds;
 
@@ -50,12 +50,18 @@ fn against_samples(folder: &Path) -> Result<(), Box<dyn Error>> {
         let points = costs.iter().filter(|cost| cost.strategy == strategy);
         let points: Vec<[f64; 2]> = points.map(|cost| [cost.samples as f64, cost.seconds]).collect();
         let each = points.last().map_or(0.0, |[n, seconds]| seconds / n * 1e9);
-        Line { name: format!("{strategy}, {each:.1} ns a sample"), colour: colour(strategy), dashed: false, points }
+        Line {
+            name: format!("{strategy}, {each:.1} ns a sample"),
+            colour: colour(strategy),
+            dashed: false,
+            marked: true,
+            points,
+        }
     };
     let figure = Figure {
         title: "Cost of an estimate against its samples, Cornell box, receiver floor-lit".to_owned(),
-        across: Axis { name: "N, samples of an estimate".to_owned(), written: figure::number },
-        up: Axis { name: "CPU time".to_owned(), written: figure::seconds },
+        across: Axis { name: "N, samples of an estimate".to_owned(), scale: Scale::Decades(figure::number) },
+        up: Axis { name: "CPU time".to_owned(), scale: Scale::Decades(figure::seconds) },
         lines: vec![line(AREA), line(HEMISPHERE)],
     };
     let row = |cost: &Cost| {
@@ -83,14 +89,15 @@ fn against_triangles(folder: &Path) -> Result<(), Box<dyn Error>> {
         let points = measured.iter().map(|terrain| [terrain.triangles as f64, 1.0 / rate(&terrain.costs[k])]);
         let receiver = receiver.trim_start_matches("receiver-");
         let name = format!("10⁶ samples, {strategy}, {receiver}");
-        Line { name, colour: colour(strategy), dashed: receiver == "hidden", points: points.collect() }
+        Line { name, colour: colour(strategy), dashed: receiver == "hidden", marked: true, points: points.collect() }
     };
     let preparation = measured.iter().map(|terrain| [terrain.triangles as f64, terrain.preparation.seconds]).collect();
-    let before = Line { name: "all but samples".to_owned(), colour: GREY, dashed: false, points: preparation };
+    let before =
+        Line { name: "all but samples".to_owned(), colour: GREY, dashed: false, marked: true, points: preparation };
     let figure = Figure {
         title: "Cost against triangles, terrains under one light".to_owned(),
-        across: Axis { name: "triangles".to_owned(), written: figure::number },
-        up: Axis { name: "CPU time".to_owned(), written: figure::seconds },
+        across: Axis { name: "triangles".to_owned(), scale: Scale::Decades(figure::number) },
+        up: Axis { name: "CPU time".to_owned(), scale: Scale::Decades(figure::seconds) },
         lines: (0..kinds).map(cost).chain([before]).collect(),
     };
     let column = |cost: &Cost| format!(",{} {}: million samples a cpu second", cost.receiver, cost.strategy);

@@ -5,7 +5,7 @@ use clap::Args;
 use super::whole::between;
 
 /// Which camera looks, and how large its image is.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Camera")]
 pub struct CameraArgs {
     /// The scene's camera of this name or number, or auto: the whole scene from outside [default: the first, if any]

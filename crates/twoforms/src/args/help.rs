@@ -14,7 +14,8 @@ Examples:
   twoforms compare scenes/cornell-box.gltf
   twoforms compare scenes/two-lights.gltf --strategies area/uniform,area/uniform@power --samples 16
   twoforms compare scenes/cornell-box.gltf --at 0.2,0,0.1,0,1,0 --format json
-  twoforms compare room.glb --camera auto --grid 16,16 --out results";
+  twoforms compare room.glb --camera auto --grid 16,16 --out results
+  twoforms compare experiment.toml -D replicates=10000";
 
 pub(super) const EXACT: &str = "\
 Examples:
@@ -28,6 +29,13 @@ Examples:
   twoforms render scenes/cornell-box.gltf -o cornell.exr
   twoforms render scenes/cornell-box.gltf --strategy hemisphere/cosine --spp 256 --width 256 --height 256
   twoforms render room.glb --view 3,2,5,0,1,0,40 --spp 16 --light-samples 16";
+
+pub(super) const REPRODUCE: &str = "\
+Examples:
+  twoforms reproduce
+  twoforms reproduce lecture
+  twoforms reproduce lecture --quick --out results
+  twoforms reproduce mine.toml -D replicates=100000";
 
 pub(super) const INSPECT: &str = "\
 Examples:

@@ -4,7 +4,6 @@ mod camera;
 mod help;
 mod list;
 mod receivers;
-mod sweep;
 mod whole;
 
 use std::path::PathBuf;
@@ -43,6 +42,9 @@ pub enum Command {
     Exact(ExactArgs),
     /// An image by one strategy, to EXR with a PNG preview beside it
     Render(RenderArgs),
+    /// Published results, ours beside theirs
+    #[command(after_help = help::REPRODUCE)]
+    Reproduce(ReproduceArgs),
     /// Lights, triangles, cameras, receivers and warnings of a scene
     Inspect(InspectArgs),
     /// Prints a completion script for a shell
@@ -54,7 +56,7 @@ pub enum Command {
 }
 
 /// What every command that computes takes.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Run")]
 pub struct RunArgs {
     /// Seed: equal seeds give equal results, on any number of threads
@@ -108,7 +110,7 @@ pub enum Format {
 }
 
 /// Where the light is measured, and what is asked of it.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct PlacesArgs {
     /// What is asked of the light
     #[arg(long, value_enum, default_value_t = QuantityArg::Irradiance)]
@@ -122,7 +124,7 @@ pub struct PlacesArgs {
 }
 
 /// When a bias is found.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Verdicts")]
 pub struct CriteriaArgs {
     /// Chance of any false alarm in a run
@@ -142,7 +144,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 /// How results are printed, and where.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Output")]
 pub struct PrintArgs {
     /// How to print results on standard output
@@ -164,7 +166,7 @@ pub struct ExactArgs {
     pub strategies: Option<StrategyList>,
     /// Move receivers or lights in steps, and find where two variances are equal: receiver.x|y|z|normal and light.x|y|z are
     /// offsets in metres, light.scale is about each light's centroid [strategies by default: the basic ones]
-    #[arg(long, value_name = "PARAM=FROM:TO[:log]:STEPS", value_parser = sweep::sweep)]
+    #[arg(long, value_name = "PARAM=FROM:TO[:log]:STEPS")]
     pub sweep: Option<Sweep>,
     /// Where, and what is asked there.
     #[command(flatten)]
@@ -178,11 +180,14 @@ pub struct ExactArgs {
 }
 
 /// `compare`.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 #[command(after_help = help::COMPARE, after_long_help = help::with_strategies(help::COMPARE))]
 pub struct CompareArgs {
-    /// A glTF scene (.gltf or .glb)
+    /// A glTF scene (.gltf or .glb), or a file with an experiment (.toml)
     pub scene: PathBuf,
+    /// Set a field of the experiment's file
+    #[arg(short = 'D', value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
     /// Strategies by name, separated by commas
     #[arg(long, alias = "strategy", default_value_t = StrategyList::default(), value_name = "LIST")]
     pub strategies: StrategyList,
@@ -214,6 +219,44 @@ pub struct CompareArgs {
     #[command(flatten)]
     pub print: PrintArgs,
     /// Also write compare.json and compare.csv into this folder
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    pub out: Option<PathBuf>,
+}
+
+/// `reproduce`.
+#[derive(Debug, ClapArgs)]
+pub struct ReproduceArgs {
+    /// Reproductions by name, or files of experiments (.toml) [default: list them]
+    #[arg(value_name = "NAME|FILE.toml")]
+    pub what: Vec<String>,
+    /// All of them
+    #[arg(long, conflicts_with = "what")]
+    pub all: bool,
+    /// A tenth of the replicates; rows then notice only three times as large a change
+    #[arg(long)]
+    pub quick: bool,
+    /// Seed [default: the file's, else 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = between::<u64>(0, u64::MAX))]
+    pub seed: Option<u64>,
+    /// Set a field of the file, in all of its experiments or, as experiment.2.KEY, in one
+    #[arg(short = 'D', value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Threads [default: one per core]
+    #[arg(
+        short, long, alias = "nthreads", value_name = "N", allow_negative_numbers = true,
+        value_parser = between::<u16>(1, 1024)
+    )]
+    pub threads: Option<u16>,
+    /// No progress
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Exit with 3 if a row differs from what is published, derived or exact
+    #[arg(long)]
+    pub check: bool,
+    /// How to print.
+    #[command(flatten)]
+    pub print: PrintArgs,
+    /// Also write reproduce.json, reproduce.csv, the figures (SVG) and the files that were run into this folder
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,
 }

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 /// Where the light is measured: any mixture of these. Without any, the scene's own receivers; without those, an 8×8 grid
 /// through its camera.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Default, PartialEq, Args)]
 #[command(next_help_heading = "Receivers")]
 pub struct ReceiverArgs {
     /// A position and a normal in metres, or @FILE.csv with one of them in each line (repeatable)

@@ -9,12 +9,19 @@ use twoforms_comparison::verdict::Criteria;
 use twoforms_report::Document;
 
 use crate::args::{CompareArgs, once};
+use crate::command::experiment;
 use crate::output::{self, Destination};
 use crate::places::Stay;
 use crate::{places, progress, run};
 
-/// Measures, and prints. `Found::Bias` where a check was asked for and an estimator is biased.
+/// Measures, and prints. `Found::Fault` where a check was asked for and an estimator is biased.
 pub fn run(args: &CompareArgs) -> Result<Found> {
+    if args.scene.extension().is_some_and(|extension| extension == "toml") {
+        return run(&experiment::read(args)?);
+    }
+    if let Some(setting) = args.set.first() {
+        bail!("-D {setting} sets a field of an experiment's file, and {} is none", args.scene.display());
+    }
     let started = SystemTime::now();
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
@@ -44,7 +51,7 @@ pub fn run(args: &CompareArgs) -> Result<Found> {
     for bias in &biases {
         output::say(bias);
     }
-    Ok(if biases.is_empty() { Found::Nothing } else { Found::Bias })
+    Ok(if biases.is_empty() { Found::Nothing } else { Found::Fault })
 }
 
 /// A line for every estimator that is found to be biased.
@@ -62,10 +69,10 @@ fn biases(results: &[ReceiverResult]) -> Vec<String> {
 /// What a check found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// No check was asked for, or no estimator is biased.
+    /// No check was asked for, or nothing is wrong.
     Nothing,
-    /// An estimator is biased.
-    Bias,
+    /// An estimator is biased, or a result differs from what it should be.
+    Fault,
 }
 
 /// Estimates that are kept until their variance is known, at eight bytes each: 4 GB.

@@ -1,4 +1,4 @@
-//! Log-log figures as SVG: colours that are readable on white and on dark, nothing behind them, lines named at their ends.
+//! Figures of lines as SVG: colours that are readable on white and on dark, nothing behind them, lines named at their ends.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ const LEADING: f64 = 18.0;
 /// Colour of axes and words.
 const INK: &str = "#808a96";
 
-/// A figure with decades along both axes.
+/// A figure of lines over one axis.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// What it shows.
@@ -28,8 +28,17 @@ pub struct Figure {
 pub struct Axis {
     /// What is measured, and in which unit.
     pub name: String,
-    /// How a power of ten is written, by its exponent.
-    pub written: fn(i32) -> String,
+    /// How it is divided.
+    pub scale: Scale,
+}
+
+/// How an axis is divided.
+#[derive(Clone, Copy, Debug)]
+pub enum Scale {
+    /// By powers of ten, written so by their exponent.
+    Decades(fn(i32) -> String),
+    /// Evenly.
+    Even,
 }
 
 /// A line.
@@ -41,34 +50,62 @@ pub struct Line {
     pub colour: &'static str,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// Its points from left to right, above zero.
+    /// Whether its points are marked.
+    pub marked: bool,
+    /// Its points from left to right; above zero along an axis of decades.
     pub points: Vec<[f64; 2]>,
 }
 
-/// Exponents of the first and the last power of ten along an axis, and where on the page these lie.
-#[derive(Clone, Copy)]
-struct Decades {
-    exponents: [i32; 2],
+/// An axis on the page: its ticks, as numbers and in words, and where the first and the last of them lie.
+#[derive(Clone, Debug)]
+struct Ruler {
+    logarithmic: bool,
+    ticks: Vec<(f64, String)>,
     ends: [f64; 2],
 }
 
-impl Decades {
+/// Even ticks, at least.
+const TICKS: f64 = 4.0;
+
+impl Ruler {
+    fn new(scale: Scale, numbers: impl Iterator<Item = f64> + Clone, ends: [f64; 2]) -> Self {
+        match scale {
+            Scale::Decades(written) => Self::decades(written, numbers, ends),
+            Scale::Even => Self::even(numbers, ends),
+        }
+    }
+
     /// The decades that hold these numbers, but for what lies less than a tenth beyond a power of ten.
-    fn around(numbers: impl Iterator<Item = f64> + Clone, ends: [f64; 2]) -> Self {
-        let (low, high) = (numbers.clone().fold(f64::INFINITY, f64::min), numbers.fold(0.0, f64::max));
+    fn decades(written: fn(i32) -> String, numbers: impl Iterator<Item = f64> + Clone, ends: [f64; 2]) -> Self {
+        let (low, high) = range(numbers);
         let (low, high) = ((low * 1.1).log10().floor() as i32, (high / 1.1).log10().ceil() as i32);
-        Self { exponents: [low, high.max(low + 1)], ends }
+        let ticks = (low..=high.max(low + 1)).map(|exponent| (10_f64.powi(exponent), written(exponent)));
+        Self { logarithmic: true, ticks: ticks.collect(), ends }
     }
 
-    fn place(self, number: f64) -> f64 {
-        let ([low, high], [from, to]) = (self.exponents.map(f64::from), self.ends);
-        from + (to - from) * (number.log10() - low) / (high - low)
+    /// Steps of 1, 2 or 5 times a power of ten around these numbers.
+    fn even(numbers: impl Iterator<Item = f64> + Clone, ends: [f64; 2]) -> Self {
+        let (low, high) = range(numbers);
+        let rough = (high - low).max(1e-9 * high.abs()).max(f64::MIN_POSITIVE) / TICKS;
+        let power = 10_f64.powf(rough.log10().floor());
+        let step = [5.0, 2.0, 1.0].into_iter().map(|k| k * power).find(|&step| step <= rough).unwrap_or(power);
+        let (first, last) = ((low / step).floor() as i64, (high / step).ceil() as i64);
+        let decimals = (-power.log10().floor()).max(0.0) as usize;
+        let tick = |k: i64| (k as f64 * step, format!("{:.decimals$}", k as f64 * step));
+        Self { logarithmic: false, ticks: (first..=last.max(first + 1)).map(tick).collect(), ends }
     }
 
-    fn ticks(self) -> impl Iterator<Item = (i32, f64)> {
-        let [low, high] = self.exponents;
-        (low..=high).map(move |exponent| (exponent, self.place(10_f64.powi(exponent))))
+    fn place(&self, number: f64) -> f64 {
+        let along = |number: f64| if self.logarithmic { number.log10() } else { number };
+        let (low, high) = (along(self.ticks[0].0), along(self.ticks[self.ticks.len() - 1].0));
+        let [from, to] = self.ends;
+        from + (to - from) * (along(number) - low) / (high - low)
     }
+}
+
+/// The least and the largest of some numbers.
+fn range(numbers: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    (numbers.clone().fold(f64::INFINITY, f64::min), numbers.fold(f64::NEG_INFINITY, f64::max))
 }
 
 impl Figure {
@@ -76,23 +113,26 @@ impl Figure {
     pub fn to_svg(&self) -> String {
         let [left, right, top, bottom] = AXES;
         let numbers = |axis: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[axis]);
-        let (across, up) = (Decades::around(numbers(0), [left, right]), Decades::around(numbers(1), [bottom, top]));
+        let across = Ruler::new(self.across.scale, numbers(0), [left, right]);
+        let up = Ruler::new(self.up.scale, numbers(1), [bottom, top]);
         let names = [
             text(10.0, 20.0, "start", INK, &self.title),
             text(10.0, top - 14.0, "start", INK, &self.up.name),
             text(0.5 * (left + right), bottom + 40.0, "middle", INK, &self.across.name),
         ];
         let mut svg = names.concat();
-        for (exponent, x) in across.ticks() {
+        for (number, words) in &across.ticks {
+            let x = across.place(*number);
             svg += &rule([x, x], [top, bottom]);
-            svg += &text(x, bottom + 18.0, "middle", INK, &(self.across.written)(exponent));
+            svg += &text(x, bottom + 18.0, "middle", INK, words);
         }
-        for (exponent, y) in up.ticks() {
+        for (number, words) in &up.ticks {
+            let y = up.place(*number);
             svg += &rule([left, right], [y, y]);
-            svg += &text(left - 8.0, y + 4.0, "end", INK, &(self.up.written)(exponent));
+            svg += &text(left - 8.0, y + 4.0, "end", INK, words);
         }
-        for (line, name_y) in self.lines.iter().zip(self.name_places(up)) {
-            svg += &line.drawn(across, up, name_y);
+        for (line, name_y) in self.lines.iter().zip(self.name_places(&up)) {
+            svg += &line.drawn(&across, &up, name_y);
         }
         let [width, height] = SIZE;
         format!(
@@ -102,7 +142,7 @@ impl Figure {
     }
 
     /// Where names stand: level with the ends of their lines, moved apart as far as they must be.
-    fn name_places(&self, up: Decades) -> Vec<f64> {
+    fn name_places(&self, up: &Ruler) -> Vec<f64> {
         let ends = self.lines.iter().map(|line| line.points.last().map_or(0.0, |end| up.place(end[1])));
         let mut places: Vec<(usize, f64)> = ends.enumerate().collect();
         places.sort_by(|one, other| one.1.total_cmp(&other.1));
@@ -119,7 +159,7 @@ impl Figure {
 }
 
 impl Line {
-    fn drawn(&self, across: Decades, up: Decades, name_y: f64) -> String {
+    fn drawn(&self, across: &Ruler, up: &Ruler, name_y: f64) -> String {
         let places: Vec<[f64; 2]> = self.points.iter().map(|&[x, y]| [across.place(x), up.place(y)]).collect();
         let Some(&[x, y]) = places.last() else { return String::new() };
         let (colour, dashes) = (self.colour, if self.dashed { " stroke-dasharray=\"6 4\"" } else { "" });
@@ -127,7 +167,7 @@ impl Line {
         let path = places.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect::<Vec<_>>().join(" ");
         let _ =
             writeln!(svg, "<polyline points=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"{dashes}/>");
-        for [x, y] in places {
+        for [x, y] in places.into_iter().filter(|_| self.marked) {
             let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>");
         }
         let _ = writeln!(
@@ -177,28 +217,45 @@ pub fn seconds(exponent: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axis, Decades, Figure, LEADING, Line, number, seconds};
+    use super::{Axis, Figure, LEADING, Line, Ruler, Scale, number, seconds};
 
     #[test]
     fn powers_of_ten_stand_at_even_distances_and_are_written_with_their_unit() {
-        let decades = Decades::around([970.0, 5e4, 1.05e6].into_iter(), [0.0, 300.0]);
-        let places: Vec<(i32, f64)> = decades.ticks().collect();
-        assert_eq!(places.len(), 4);
-        for (k, (exponent, place)) in (0..).zip(places) {
-            assert!(exponent == 3 + k && (place - 100.0 * f64::from(k)).abs() < 1e-9, "10^{exponent} at {place}");
+        let ruler = Ruler::new(Scale::Decades(number), [970.0, 5e4, 1.05e6].into_iter(), [0.0, 300.0]);
+        assert_eq!(ruler.ticks.len(), 4);
+        for (k, (tick, words)) in (0..).zip(&ruler.ticks) {
+            let place = ruler.place(*tick);
+            assert!(*words == number(3 + k) && (place - 100.0 * f64::from(k)).abs() < 1e-9, "{words} at {place}");
         }
         assert_eq!([number(3), number(-12)], ["10³", "10⁻¹²"]);
         assert_eq!([seconds(-6), seconds(-1), seconds(2), seconds(4)], ["1 µs", "100 ms", "100 s", "10⁴ s"]);
     }
 
     #[test]
+    fn even_ticks_are_round_numbers_around_all_others() {
+        let words = |numbers: &[f64]| {
+            let ruler = Ruler::new(Scale::Even, numbers.iter().copied(), [0.0, 1.0]);
+            ruler.ticks.into_iter().map(|(_, words)| words).collect::<Vec<_>>()
+        };
+        assert_eq!(words(&[1.0, 6.0]), ["1", "2", "3", "4", "5", "6"]);
+        assert_eq!(words(&[0.71, 2.74]), ["0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]);
+        assert_eq!(words(&[3.0, 3.0]).len(), 2);
+    }
+
+    #[test]
     fn names_of_lines_that_end_together_are_told_apart() {
-        let line =
-            |y: f64| Line { name: "l".into(), colour: "red", dashed: false, points: vec![[1.0, 1.0], [10.0, y]] };
-        let axis = || Axis { name: "a".into(), written: number };
+        let line = |y: f64| Line {
+            name: "l".into(),
+            colour: "red",
+            dashed: false,
+            marked: true,
+            points: vec![[1.0, 1.0], [10.0, y]],
+        };
+        let axis = || Axis { name: "a".into(), scale: Scale::Decades(number) };
         let lines = vec![line(10.0), line(10.5), line(10.2), line(1000.0)];
         let figure = Figure { title: "t".into(), across: axis(), up: axis(), lines };
-        let mut places = figure.name_places(Decades { exponents: [0, 3], ends: [300.0, 0.0] });
+        let ruler = Ruler::new(Scale::Decades(number), [1.0, 1000.0].into_iter(), [300.0, 0.0]);
+        let mut places = figure.name_places(&ruler);
         assert!(places[1] < places[2] && places[2] < places[0], "in the order of their ends: {places:?}");
         places.sort_by(f64::total_cmp);
         assert!(places.windows(2).all(|pair| pair[1] - pair[0] > LEADING - 0.01), "{places:?}");

@@ -1,12 +1,27 @@
-//! Sweeps: `PARAM=FROM:TO[:log]:STEPS`.
+//! Sweeps as the command line and files write them: `PARAM=FROM:TO[:log]:STEPS`.
 
-use twoforms_comparison::sweep::{Parameter, Spacing, Sweep};
+use std::str::FromStr;
+
 use twoforms_estimator::nearest::nearest;
+
+use crate::sweep::{Parameter, Spacing, Sweep};
 
 const FORM: &str = "the form is PARAM=FROM:TO[:log]:STEPS, as in receiver.y=0.1:10:log:25";
 
-/// A sweep as the command line writes it.
-pub(super) fn sweep(text: &str) -> Result<Sweep, String> {
+/// What a text that is no sweep lacks.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct NoSweep(String);
+
+impl FromStr for Sweep {
+    type Err = NoSweep;
+
+    fn from_str(text: &str) -> Result<Self, NoSweep> {
+        sweep(text).map_err(NoSweep)
+    }
+}
+
+fn sweep(text: &str) -> Result<Sweep, String> {
     let (name, range) = text.split_once('=').ok_or_else(|| format!("has no \"=\"; {FORM}"))?;
     let parameter = parameter(name.trim())?;
     let parts: Vec<&str> = range.split(':').map(str::trim).collect();
@@ -35,7 +50,7 @@ fn parameter(name: &str) -> Result<Parameter, String> {
 #[cfg(test)]
 mod tests {
     use super::sweep;
-    use twoforms_comparison::sweep::{Parameter, Spacing, Sweep};
+    use crate::sweep::{Parameter, Spacing, Sweep};
 
     #[test]
     fn sweeps_are_read() {

@@ -124,13 +124,14 @@ impl Row {
         if references.iter().any(|&[from, to]| to < low || high < from) {
             return Verdict::Differs;
         }
-        let reference =
-            if value.is_nan() { references.first().map_or(measured.value, |r| 0.5 * (r[0] + r[1])) } else { value };
-        let narrow = measured.half_width() <= self.widest() * reference.abs() || reference == 0.0;
+        let sharpest = references.iter().copied().min_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+        let [from, to] = sharpest.unwrap_or(measured.interval);
+        let (reference, slack) = (0.5 * (from + to), 0.5 * (to - from));
+        let narrow = measured.half_width() + slack <= self.widest() * reference.abs() || reference == 0.0;
         if narrow { Verdict::Agrees } else { Verdict::Undecided }
     }
 
-    /// The widest relative half interval at which a change by `detects` is certain to be noticed while the interval holds the true
+    /// The widest relative half interval, that of the reference included, at which a change by `detects` is certain to be noticed while the interval holds the true
     /// value before it: 2h(1 + d) = d.
     fn widest(&self) -> f64 {
         self.detects / (2.0 * (1.0 + self.detects))

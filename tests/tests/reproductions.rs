@@ -19,11 +19,12 @@ fn names() -> impl Iterator<Item = &'static str> {
     catalogue::reproductions().map(|(name, _)| name)
 }
 
+/// With one seed in full, with the others quickly.
 #[test]
 fn every_reproduction_holds_with_three_seeds() {
     for name in names() {
         for seed in SEEDS {
-            let done = done(name, seed, false);
+            let done = done(name, seed, seed != SEEDS[0]);
             let failed: Vec<&Row> = done.rows().filter(|row| !held(row)).collect();
             assert!(failed.is_empty() && done.passed(), "{name}, seed {seed}: {failed:#?}");
         }

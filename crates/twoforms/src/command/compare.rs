@@ -17,7 +17,7 @@ use crate::{places, progress, run};
 /// Measures, and prints. `Found::Fault` where a check was asked for and an estimator is biased.
 pub fn run(args: &CompareArgs) -> Result<Found> {
     if args.scene.extension().is_some_and(|extension| extension == "toml") {
-        return run(&experiment::read(args)?);
+        return experiment::run(args, run);
     }
     if let Some(setting) = args.set.first() {
         bail!("-D {setting} sets a field of an experiment's file, and {} is none", args.scene.display());

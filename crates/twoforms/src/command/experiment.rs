@@ -9,6 +9,7 @@ use twoforms_report::file;
 use twoforms_reproduction::schema::Experiment;
 use twoforms_reproduction::{Text, stage};
 
+use super::compare::Found;
 use crate::args::{At, CompareArgs, PlacesArgs, PrintArgs, ReceiverArgs, RunArgs, SamplerList, StrategyList};
 
 /// The text of a file of experiments, with fields set from outside.
@@ -19,9 +20,24 @@ pub fn text(path: &Path, settings: &[String]) -> Result<Text> {
     Ok(Text { name, folder, text }.with(settings)?)
 }
 
-/// The options of `compare` that the file's only experiment stands for; how to run and to print is said on the command line. The
-/// file with all that was set is written beside the results.
-pub fn read(args: &CompareArgs) -> Result<CompareArgs> {
+/// Runs the file's only experiment by `compare`, and writes the file with all that was set beside the results. How to run and to
+/// print is said on the command line.
+pub fn run(args: &CompareArgs, compare: impl FnOnce(&CompareArgs) -> Result<Found>) -> Result<Found> {
+    let (options, text) = read(args)?;
+    let resolved = args.out.as_ref().map(|folder| folder.join("experiment.toml"));
+    if let Some(path) = &resolved {
+        file::make_folder(path.parent().unwrap_or(path))?;
+        file::check(path)?;
+    }
+    let found = compare(&options)?;
+    if let Some(path) = &resolved {
+        file::save(path, |out| Ok(out.write_all(text.text.as_bytes())?))?;
+    }
+    Ok(found)
+}
+
+/// The options of `compare` that the file's only experiment stands for, and the file.
+fn read(args: &CompareArgs) -> Result<(CompareArgs, Text)> {
     refuse_options(args)?;
     let text = text(&args.scene, &args.set)?;
     let file = text.parse()?;
@@ -44,12 +60,8 @@ pub fn read(args: &CompareArgs) -> Result<CompareArgs> {
         return Err(text.error(scene.span(), &message).into());
     }
     let options = options(experiment, &text, path, args)?;
-    if let Some(folder) = &args.out {
-        file::make_folder(folder)?;
-        file::save(&folder.join("experiment.toml"), |out| Ok(out.write_all(text.text.as_bytes())?))?;
-    }
     let seed = if args.run.seed == 0 { file.seed } else { args.run.seed };
-    Ok(CompareArgs { run: RunArgs { seed, ..args.run.clone() }, ..options })
+    Ok((CompareArgs { run: RunArgs { seed, ..args.run.clone() }, ..options }, text))
 }
 
 /// What the file says cannot be said on the command line as well.

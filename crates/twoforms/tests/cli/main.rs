@@ -11,6 +11,7 @@ mod json;
 mod receivers;
 mod refusals;
 mod render;
+mod reproduce;
 mod streams;
 mod support;
 mod usage;

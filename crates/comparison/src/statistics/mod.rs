@@ -8,7 +8,6 @@
 //! The spread of a variance is read from the replicates alone, so all of it stays valid for samplers whose samples
 //! depend on each other. What cannot be given is refused with a [`Reason`], never replaced by a guess.
 
-mod chebyshev;
 mod clopper_pearson;
 mod efficiency;
 mod familywise;
@@ -21,7 +20,6 @@ mod student;
 mod variance;
 mod variance_interval;
 
-pub use chebyshev::{Band, chebyshev};
 pub use clopper_pearson::{binomial_p_value, clopper_pearson};
 pub use efficiency::efficiency;
 pub use familywise::{holm, sidak};
@@ -31,5 +29,6 @@ pub use rate::{Candidates, REGIMES, RateFit, fit_rate};
 pub use ratio::{VarianceRatio, variance_ratio};
 pub use reason::Reason;
 pub use student::{Z_95, student_quantile};
+pub use twoforms_integration::chebyshev::{Band, chebyshev};
 pub use variance::{sample_mean, sample_variance};
 pub use variance_interval::{TwoValued, variance_interval};

@@ -24,4 +24,5 @@ pub mod secondary;
 pub mod selection;
 pub mod strategy;
 pub mod technique;
+pub mod tree;
 pub mod xi;

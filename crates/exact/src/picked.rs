@@ -30,7 +30,7 @@ pub enum Method {
     Cubature,
 }
 
-/// Lights that are drawn on as one: the probability of picking them and their whole measure, hidden
+/// Targets that are drawn on as one: those of all lights, of one, or a single one; the probability of picking them and their whole measure, hidden
 /// parts included.
 struct Group {
     pick: f64,
@@ -43,9 +43,9 @@ struct Group {
 /// T_ℓ in all: P = q_ℓ (visible)/T_ℓ and w = L u T_ℓ/q_ℓ with u = cosθ_x cosθ_y/r², cosθ_x or 1.
 ///
 /// # Errors
-/// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0.
+/// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0; [`Error::NoTree`].
 pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
-    let groups = groups(sight, draw, selection);
+    let groups = groups(sight, draw, selection)?;
     let mut law = Law::default();
     for group in &groups {
         law.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
@@ -130,38 +130,50 @@ fn hidden(seen: &Seen, draw: Draw) -> (f64, f64) {
     }
 }
 
-fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Vec<Group> {
-    let areas: Vec<f64> = match selection {
-        Selection::Together => vec![sight.total_area()],
-        _ => sight.lights.iter().map(|light| light.area).collect(),
+fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>, Error> {
+    let by_tree = if selection == Selection::Tree { sight.by_tree()? } else { Vec::new() };
+    let count = match selection {
+        Selection::Together => 1,
+        Selection::Tree => by_tree.len(),
+        _ => sight.lights.len(),
     };
     let per_group = |f: &dyn Fn(&Seen) -> f64| {
-        let mut sums = vec![0.0; areas.len()];
+        let mut sums = vec![0.0; count];
         sight.seen.iter().for_each(|seen| sums[group_of(seen, selection)] += f(seen));
         sums
     };
+    let listed = per_group(&|seen| whole(seen, draw));
+    let areas: Vec<f64> = match selection {
+        Selection::Together => vec![sight.total_area()],
+        Selection::Tree => listed.clone(),
+        _ => sight.lights.iter().map(|light| light.area).collect(),
+    };
     let weights: Vec<f64> = match selection {
-        Selection::Together | Selection::Uniform => vec![1.0; areas.len()],
+        Selection::Together | Selection::Uniform => vec![1.0; count],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
         Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+        Selection::Tree if draw == Draw::Uniform => by_tree,
+        Selection::Tree => by_tree.iter().zip(&listed).map(|(&p, &m)| if m > 0.0 { p } else { 0.0 }).collect(),
     };
     let total: f64 = weights.iter().sum();
-    let listed = per_group(&|seen| whole(seen, draw));
     let groups = weights.iter().zip(&listed).zip(&areas);
     let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64;
-    groups
-        .map(|((&weight, &listed), &area)| {
-            let whole = if draw == Draw::Uniform { area } else { listed };
-            let rest = whole - listed;
-            Group {
-                pick: if total > 0.0 { weight / total } else { 0.0 },
-                whole,
-                unlisted: if rest.abs() <= rounding * whole { 0.0 } else { rest },
-            }
-        })
-        .collect()
+    let group = |((&weight, &listed), &area): ((&f64, &f64), &f64)| {
+        let whole = if draw == Draw::Uniform { area } else { listed };
+        let rest = whole - listed;
+        Group {
+            pick: if total > 0.0 { weight / total } else { 0.0 },
+            whole,
+            unlisted: if rest.abs() <= rounding * whole { 0.0 } else { rest },
+        }
+    };
+    Ok(groups.map(group).collect())
 }
 
 fn group_of(seen: &Seen, selection: Selection) -> usize {
-    if selection == Selection::Together { 0 } else { seen.light }
+    match selection {
+        Selection::Together => 0,
+        Selection::Tree => seen.target,
+        _ => seen.light,
+    }
 }

@@ -22,6 +22,8 @@ const TOO_ROUGH: f64 = 1e-11;
 /// A facet that emits toward x.
 #[derive(Clone, Debug)]
 pub struct Seen {
+    /// The target it belongs to.
+    pub target: usize,
     /// The light it belongs to.
     pub light: usize,
     /// L_e toward x, linear RGB.
@@ -79,6 +81,7 @@ impl Seen {
         let whole_solid_angle = if clipped { solid_angle_of(&facet.corners) } else { open.solid_angle };
         let visible_area = if blocked || clipped { area * (moments.area / facet.area) } else { area };
         Ok(Self {
+            target: facing.target as usize,
             light: facing.light as usize,
             radiance: facing.radiance,
             luminance: luminance(facing.radiance),

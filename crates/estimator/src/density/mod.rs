@@ -11,7 +11,7 @@ mod spherical_triangle;
 mod toward;
 
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
-pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use lights::{AreaOnLights, ByArea, OnLights, Picking, Spread};
 pub use one_target::OnOneTarget;
 pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLights};
 pub use sector::{Sector, sectors};

@@ -9,7 +9,7 @@ use twoforms_geometry::view::{Vantage, View};
 
 use super::Ready;
 use super::along;
-use super::lights::{OnLights, Spread};
+use super::lights::{OnLights, Picking, Spread};
 use super::spherical_triangle::{self, SphericalTriangle};
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
@@ -114,8 +114,8 @@ impl Ready for SolidAngleOnLights {
     fn at<'a>(&'a self, view: &View, query: &Query) -> OnLights<'a, BySolidAngle> {
         let (spread, pieces) = BySolidAngle::new(view);
         let lights = query.lights();
-        let picker = Picker::over(self.0, lights, &pieces, || lights.contributions(view));
-        OnLights { picker: Cow::Owned(picker), spread }
+        let picker = Picker::over(self.0, lights, &pieces, || self.0.at_x(lights, view));
+        OnLights { picking: Picking::Listed(Cow::Owned(picker)), spread }
     }
 }
 

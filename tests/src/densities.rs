@@ -1,8 +1,8 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
-    TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, BilinearCosineOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
+    SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use twoforms_estimator::measure::Measure;
 use twoforms_estimator::query::Query;
@@ -48,6 +48,11 @@ pub fn visit<V: Visitor>(technique: Technique, query: &Query, view: &View, visit
         }
         Kind::AreaProjectedSolidAngle => {
             let ready = ProjectedSolidAngleOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picking))
+        }
+        Kind::AreaBilinearCosine => {
+            let ready = BilinearCosineOnLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::varying(view, &density.picking))
         }

@@ -5,7 +5,7 @@
 //! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
 
 pub mod batch;
-mod combination;
+pub mod combination;
 pub mod density;
 pub mod estimate;
 pub mod estimator;

@@ -39,34 +39,55 @@ struct Group {
     unlisted: f64,
 }
 
-/// The law of one sample: light ℓ with probability q_ℓ, then a point uniform in the draw's measure,
-/// T_ℓ in all: P = q_ℓ (visible)/T_ℓ and w = L u T_ℓ/q_ℓ with u = cosθ_x cosθ_y/r², cosθ_x or 1.
+/// How likely a draw is to land on each facet, per measure, and how likely to land where x sees nothing.
+pub struct Shares {
+    /// Probability per measure on each facet of the sight.
+    pub per_measure: Vec<f64>,
+    /// Probability of a sample worth zero.
+    pub hidden: f64,
+    /// Bound of its error.
+    pub hidden_error: f64,
+}
+
+/// The shares of a draw: light ℓ with probability q_ℓ, then a point uniform in the draw's measure, T_ℓ in all: q_ℓ/T_ℓ.
 ///
 /// # Errors
-/// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0; [`Error::NoTree`].
-pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
+/// [`Error::NeverPicked`] for a light that contributes with q = 0; [`Error::NoTree`].
+pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares, Error> {
     let groups = groups(sight, draw, selection)?;
-    let mut law = Law::default();
+    let mut shares = Shares { per_measure: Vec::with_capacity(sight.seen.len()), hidden: 0.0, hidden_error: 0.0 };
     for group in &groups {
-        law.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
+        shares.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
-    for (index, seen) in sight.seen.iter().enumerate() {
+    for seen in &sight.seen {
         let group = &groups[group_of(seen, selection)];
         if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
             return Err(Error::NeverPicked { light: seen.light });
         }
-        if group.pick <= 0.0 || group.whole <= 0.0 {
-            continue;
+        let share = if group.pick > 0.0 && group.whole > 0.0 { group.pick / group.whole } else { 0.0 };
+        if share > 0.0 {
+            let (hidden, error) = hidden(seen, draw);
+            shares.hidden += share * hidden;
+            shares.hidden_error += share * error;
         }
-        let share = group.pick / group.whole;
-        let (hidden, error) = hidden(seen, draw);
-        law.hidden += share * hidden;
-        law.hidden_error += share * error;
-        if seen.is_visible() {
+        shares.per_measure.push(share);
+    }
+    shares.hidden_error += 4.0 * EPSILON * shares.hidden;
+    Ok(shares)
+}
+
+/// The law of one sample: P = share × (visible measure) and w = L u/share with u = cosθ_x cosθ_y/r², cosθ_x or 1.
+///
+/// # Errors
+/// As [`shares`]; [`Error::NotConverged`].
+pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
+    let Shares { per_measure, hidden, hidden_error } = shares(sight, draw, selection)?;
+    let mut law = Law { parts: Vec::new(), hidden, hidden_error };
+    for ((index, seen), share) in sight.seen.iter().enumerate().zip(per_measure) {
+        if share > 0.0 && seen.is_visible() {
             law.parts.push(scaled(part(index, seen, draw, method)?, share));
         }
     }
-    law.hidden_error += 4.0 * EPSILON * law.hidden;
     Ok(law)
 }
 

@@ -18,6 +18,23 @@ use crate::value::EPSILON;
 /// # Errors
 /// [`Error::NotConverged`].
 pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+    within(index, seen, 1.0, f)
+}
+
+/// The same to some thousandths, where u jumps across a curve: cells along it are halved until what they leave is that small,
+/// and the bounds say how small.
+///
+/// # Errors
+/// [`Error::NotConverged`].
+pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+    within(index, seen, ROUGH, f)
+}
+
+/// How much larger errors may be where u jumps.
+const ROUGH: f64 = 1e6;
+
+/// To relative errors of 10⁻⁹ times `times`.
+fn within(index: usize, seen: &Seen, times: f64, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
@@ -30,7 +47,7 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
     };
     let slack = seen.slack();
     // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
-    let relative = |least: f64| least.max(0.1 * slack);
+    let relative = |least: f64| (times * least).max(0.1 * slack);
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
         let size = centre.abs() * mass;
         [

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use twoforms_estimator::technique::{Kind, Technique};
 
+use crate::bilinear::Bilinear;
 use crate::error::Error;
 use crate::picked::{Draw, Shares, shares};
 use crate::seen::Seen;
@@ -18,7 +19,6 @@ pub struct Density {
 }
 
 /// What a density is constant in, on each facet.
-#[derive(Clone, Copy)]
 enum Measure {
     /// dA.
     Area,
@@ -26,6 +26,8 @@ enum Measure {
     SolidAngle,
     /// cosθ_x dω.
     ProjectedSolidAngle,
+    /// w dω, w a bilinear cosine.
+    BilinearCosine(Vec<Bilinear>),
 }
 
 impl Density {
@@ -41,7 +43,11 @@ impl Density {
             Kind::AreaUniform | Kind::HemisphereTowardLights => drawn(Measure::Area, Draw::Uniform),
             Kind::AreaSolidAngle => drawn(Measure::SolidAngle, Draw::SolidAngle),
             Kind::AreaProjectedSolidAngle => drawn(Measure::ProjectedSolidAngle, Draw::ProjectedSolidAngle),
-            Kind::HemisphereTowardLightsMarginal | Kind::AreaBilinearCosine => Err(Error::NoFormula),
+            Kind::AreaBilinearCosine => {
+                let bilinear = sight.seen.iter().map(|seen| Bilinear::new(&seen.corners)).collect();
+                drawn(Measure::BilinearCosine(bilinear), Draw::BilinearCosine)
+            }
+            Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
         }
     }
 
@@ -49,7 +55,7 @@ impl Density {
     fn over_hemisphere(sight: &Sight, measure: Measure, whole: f64) -> Self {
         let (mut seen, mut error) = (0.0, 0.0);
         for Seen { moments, .. } in &sight.seen {
-            let (moment, bound) = match measure {
+            let (moment, bound) = match &measure {
                 Measure::SolidAngle => (moments.solid_angle, moments.errors[0]),
                 _ => (moments.m10, moments.errors[1]),
             };
@@ -67,10 +73,11 @@ impl Density {
     pub fn per_area(&self, index: usize, seen: &Seen, y: DVec3) -> f64 {
         let r2 = y.length_squared();
         self.shares.per_measure[index]
-            * match self.measure {
+            * match &self.measure {
                 Measure::Area => 1.0,
                 Measure::SolidAngle => seen.facet.s / (r2 * r2.sqrt()),
                 Measure::ProjectedSolidAngle => seen.g(y),
+                Measure::BilinearCosine(bilinear) => bilinear[index].at(y) * seen.facet.s / (r2 * r2.sqrt()),
             }
     }
 

@@ -11,6 +11,7 @@
 //! multiply E by ρ/π and variances by (ρ/π)².
 
 pub mod arc;
+pub mod bilinear;
 pub mod clip;
 pub mod cone;
 pub mod cubature;

@@ -30,7 +30,7 @@ impl Members {
     }
 
     /// How many there are.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.0.len()
     }
 
@@ -63,7 +63,7 @@ impl Members {
     /// # Errors
     /// [`Error::NotConverged`]; [`Error::NoFormula`] for weights that need α.
     pub fn laws(&self, sight: &Sight, weighting: Weighting) -> Result<Vec<Law>, Error> {
-        (0..self.len()).map(|i| self.law(sight, weighting, i)).collect()
+        (0..self.count()).map(|i| self.law(sight, weighting, i)).collect()
     }
 
     fn law(&self, sight: &Sight, weighting: Weighting, i: usize) -> Result<Law, Error> {

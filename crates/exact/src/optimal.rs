@@ -34,7 +34,7 @@ impl<'s> Optimal<'s> {
     /// [`Error::NotConverged`].
     pub fn new(sight: &'s Sight, members: Members) -> Result<Self, Error> {
         let mut matrix = [[0.0; 3]; 3];
-        for k in 0..members.len() {
+        for k in 0..members.count() {
             matrix[k][k] = members.missed(k).0 / members.samples(k);
         }
         let mut b = Vec::new();
@@ -61,7 +61,7 @@ impl<'s> Optimal<'s> {
         for (index, part) in &self.b {
             b = from_fn(|k| b[k] + radiance(*index) * part[k]);
         }
-        let mean = (0..self.members.len()).map(|k| self.members.samples(k) * b[k]).sum();
+        let mean = (0..self.members.count()).map(|k| self.members.samples(k) * b[k]).sum();
         (alpha(self.matrix, b), mean)
     }
 
@@ -109,7 +109,7 @@ impl<'s> Optimal<'s> {
     /// What samples that meet nothing add.
     fn of_missed(&self, alpha: [f64; 3], mean: f64) -> Outcome {
         let mut outcome = Outcome { mean, mean_error: 16.0 * EPSILON * mean, ..Outcome::default() };
-        for (k, alpha) in alpha.iter().enumerate().take(self.members.len()) {
+        for (k, alpha) in alpha.iter().enumerate().take(self.members.count()) {
             let ((missed, error), n) = (self.members.missed(k), self.members.samples(k));
             outcome.variance += alpha * alpha * missed / n;
             outcome.error += alpha * alpha * error / n;

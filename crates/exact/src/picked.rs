@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::bilinear::Bilinear;
 use crate::error::Error;
 use crate::law::{Law, Part};
 use crate::seen::Seen;
@@ -19,6 +20,8 @@ pub enum Draw {
     SolidAngle,
     /// Projected solid angle of the targets that face x, clipped to the horizon.
     ProjectedSolidAngle,
+    /// Solid angle of the targets that face x, times a bilinear cosine.
+    BilinearCosine,
 }
 
 /// Spreads by edge sums, or by cubature.
@@ -59,14 +62,17 @@ pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares,
     for group in &groups {
         shares.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
-    for seen in &sight.seen {
+    for (index, seen) in sight.seen.iter().enumerate() {
         let group = &groups[group_of(seen, selection)];
         if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
             return Err(Error::NeverPicked { light: seen.light });
         }
         let share = if group.pick > 0.0 && group.whole > 0.0 { group.pick / group.whole } else { 0.0 };
         if share > 0.0 {
-            let (hidden, error) = hidden(seen, draw);
+            let (hidden, error) = match draw {
+                Draw::BilinearCosine => hidden_of_bilinear(sight, index, seen)?,
+                _ => hidden(seen, draw),
+            };
             shares.hidden += share * hidden;
             shares.hidden_error += share * error;
         }
@@ -104,7 +110,18 @@ fn part(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Part, E
             kept.solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::ProjectedSolidAngle, _) => Ok(spread::of_projected_solid_angle(index, seen)),
+        (Draw::BilinearCosine, _) => kept.bilinear.get_or_init(|| by_bilinear_cosine(index, seen)).clone(),
     }
+}
+
+/// cosθ_x/w under w dω.
+fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Part, Error> {
+    let bilinear = Bilinear::new(&seen.corners);
+    let f = |y: DVec3| {
+        let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
+        [cos_x / w, w * d_omega]
+    };
+    if bilinear.is_smooth() { spread::by_cubature(index, seen, f) } else { spread::by_rough_cubature(index, seen, f) }
 }
 
 /// cosθ_x = z/r and dω/dA = s/r³.
@@ -133,7 +150,25 @@ fn whole(seen: &Seen, draw: Draw) -> f64 {
         Draw::Uniform => seen.area,
         Draw::SolidAngle => seen.whole_solid_angle,
         Draw::ProjectedSolidAngle => seen.open.m10,
+        Draw::BilinearCosine => Bilinear::new(&seen.corners).whole() * (seen.facet.area / flat_area(&seen.corners)),
     }
+}
+
+/// The area of a target's triangles.
+fn flat_area(corners: &[DVec3]) -> f64 {
+    let of = |pair: &[DVec3]| 0.5 * (pair[0] - corners[0]).cross(pair[1] - corners[0]).length();
+    corners[1..].windows(2).map(of).sum()
+}
+
+/// What x does not see of a facet's share of its target's measure. Where a target is two facets, their shares are by area, and what
+/// one has too much the other lacks.
+fn hidden_of_bilinear(sight: &Sight, index: usize, seen: &Seen) -> Result<(f64, f64), Error> {
+    if sight.seen.iter().all(|seen| !seen.blocked && !seen.clipped) {
+        return Ok((0.0, 0.0));
+    }
+    let part =
+        if seen.is_visible() { part(index, seen, Draw::BilinearCosine, Method::Cubature)? } else { Part::default() };
+    Ok((whole(seen, Draw::BilinearCosine) - part.mass, part.mass_error))
 }
 
 /// The measure of what x does not see of a facet, and a bound of its error.
@@ -141,12 +176,14 @@ fn hidden(seen: &Seen, draw: Draw) -> (f64, f64) {
     let (open, moments) = (&seen.open, &seen.moments);
     let partial = match draw {
         Draw::ProjectedSolidAngle => seen.blocked,
-        Draw::Uniform | Draw::SolidAngle => seen.blocked || seen.clipped,
+        Draw::Uniform | Draw::SolidAngle | Draw::BilinearCosine => seen.blocked || seen.clipped,
     };
     match draw {
         _ if !partial => (0.0, 0.0),
         Draw::Uniform => (seen.area - seen.visible_area, moments.area_error),
-        Draw::SolidAngle => (seen.whole_solid_angle - moments.solid_angle, open.error + moments.error),
+        Draw::SolidAngle | Draw::BilinearCosine => {
+            (seen.whole_solid_angle - moments.solid_angle, open.error + moments.error)
+        }
         Draw::ProjectedSolidAngle => (open.m10 - moments.m10, open.errors[1] + moments.errors[1]),
     }
 }

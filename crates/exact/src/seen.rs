@@ -48,6 +48,8 @@ pub struct Seen {
     pub clipped: bool,
     /// The plane and outline.
     pub facet: Facet,
+    /// The corners of the target, in its own order.
+    pub corners: Vec<DVec3>,
     /// Spreads by cubature, kept because every selection of lights asks for the same ones.
     pub(crate) cubatures: Cubatures,
 }
@@ -59,6 +61,8 @@ pub(crate) struct Cubatures {
     pub area: OnceLock<Result<Part, Error>>,
     /// Of cosθ_x under dω.
     pub solid_angle: OnceLock<Result<Part, Error>>,
+    /// Of cosθ_x over the bilinear cosine, under that times dω.
+    pub bilinear: OnceLock<Result<Part, Error>>,
 }
 
 impl Seen {
@@ -94,6 +98,7 @@ impl Seen {
             blocked,
             clipped,
             facet,
+            corners: facing.corners.clone(),
             cubatures: Cubatures::default(),
         })
     }

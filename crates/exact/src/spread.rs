@@ -18,11 +18,11 @@ use crate::value::EPSILON;
 /// # Errors
 /// [`Error::NotConverged`].
 pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    within(index, seen, 1.0, f)
+    within(index, seen, FINE, f)
 }
 
-/// The same to some thousandths, where u jumps across a curve: cells along it are halved until what they leave is that small,
-/// and the bounds say how small.
+/// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
+/// the bounds say how small.
 ///
 /// # Errors
 /// [`Error::NotConverged`].
@@ -30,11 +30,16 @@ pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2
     within(index, seen, ROUGH, f)
 }
 
-/// How much larger errors may be where u jumps.
-const ROUGH: f64 = 1e6;
+/// Relative errors of the mass, and of mean and spread.
+const FINE: [f64; 2] = [1e-11, 1e-9];
+const ROUGH: [f64; 2] = [1e-3, 1e-3];
 
-/// To relative errors of 10⁻⁹ times `times`.
-fn within(index: usize, seen: &Seen, times: f64, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+fn within(
+    index: usize,
+    seen: &Seen,
+    [of_mass, of_spread]: [f64; 2],
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
@@ -47,13 +52,13 @@ fn within(index: usize, seen: &Seen, times: f64, f: impl Fn(DVec3) -> [f64; 2]) 
     };
     let slack = seen.slack();
     // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
-    let relative = |least: f64| (times * least).max(0.1 * slack);
+    let relative = |least: f64| least.max(0.1 * slack);
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
         let size = centre.abs() * mass;
         [
-            relative(1e-11) * mass,
-            relative(1e-9) * (second * mass).sqrt() + 1e-15 * size,
-            relative(1e-9) * second + 1e-18 * centre.abs() * size,
+            relative(of_mass) * mass,
+            relative(of_spread) * (second * mass).sqrt() + 1e-15 * size,
+            relative(of_spread) * second + 1e-18 * centre.abs() * size,
         ]
     };
     let sum = integrate(&seen.pieces, about_centre, tolerance)?;

@@ -25,17 +25,17 @@ const LUMINANCE: usize = 3;
 pub fn has_formula(strategy: Strategy) -> bool {
     match strategy {
         Strategy::Mixture(1.0, [technique, _]) | Strategy::Mixture(0.0, [_, technique]) => is_known(technique),
+        Strategy::Mis(Weighting::Pilot(_), _) | Strategy::Resampled(_) | Strategy::Ratio => false,
         Strategy::Single(_) | Strategy::Mis(..) | Strategy::Mixture(..) => {
             strategy.techniques().into_iter().all(is_known)
         }
         Strategy::ControlVariate => true,
-        Strategy::Resampled(_) | Strategy::Ratio => false,
     }
 }
 
 /// Whether the density of a technique is a formula on each facet.
 fn is_known(technique: Technique) -> bool {
-    !matches!(technique.kind, Kind::HemisphereTowardLightsMarginal | Kind::AreaBilinearCosine)
+    technique.kind != Kind::HemisphereTowardLightsMarginal
 }
 
 /// All strategies whose variance is known here; combinations by some of their many names.
@@ -74,7 +74,7 @@ impl Sight {
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
-            Kind::AreaBilinearCosine => Err(Error::NoFormula),
+            Kind::AreaBilinearCosine => self.over_lights(Draw::BilinearCosine, selection),
             Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
         }
     }

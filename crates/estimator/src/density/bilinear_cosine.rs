@@ -58,24 +58,34 @@ pub fn corner_cosines(piece: &pieces::Piece) -> [f64; 4] {
 }
 
 impl Spread for ByBilinearCosine {
-    /// First v by the sums of w along u, then u by w there.
     #[inline(always)]
-    fn point<R: Real>(&self, _: &Vantage<R>, piece: R::Word, [u, v]: [R; 2]) -> SurfacePoint<R> {
-        let [w00, w10, w01, w11] = self.cosines::<R>(piece);
-        let v = linear(v, [w00 + w10, w01 + w11]);
-        let u = linear(u, [w00 + (w01 - w00) * v, w10 + (w11 - w10) * v]);
-        self.pieces.point(piece, [u, v])
+    fn point<R: Real>(&self, from: &Vantage<R>, piece: R::Word, uv: [R; 2]) -> SurfacePoint<R> {
+        self.draw(from, piece, uv).0
     }
 
-    /// w(u, v) dω/dA.
+    /// First v by the sums of w along u, then u by w there.
+    #[inline(always)]
+    fn draw<R: Real>(&self, _: &Vantage<R>, piece: R::Word, [u, v]: [R; 2]) -> (SurfacePoint<R>, R) {
+        let w = self.cosines::<R>(piece);
+        let [w00, w10, w01, w11] = w;
+        let v = linear(v, [w00 + w10, w01 + w11]);
+        let u = linear(u, [w00 + (w01 - w00) * v, w10 + (w11 - w10) * v]);
+        let y = self.pieces.point(piece, [u, v]);
+        (y, bilinear(w, [u, v]) * Segment::to(&y).d_omega_d_area())
+    }
+
+    /// w(u, v) dω/dA, u and v found from y: across a sliver no better than y is rounded, over its width.
     #[inline(always)]
     fn per_area<R: Real>(&self, _: &Vantage<R>, y: &SurfacePoint<R>) -> R {
         let (piece, [u, v]) = self.of_targets.find(&self.pieces, y);
-        let [w00, w10, w01, w11] = self.cosines::<R>(piece);
-        let (u, v) = (share(u), share(v));
-        let w = (w00 + (w01 - w00) * v) * (R::one() - u) + (w10 + (w11 - w10) * v) * u;
-        w * Segment::to(y).d_omega_d_area()
+        bilinear(self.cosines::<R>(piece), [share(u), share(v)]) * Segment::to(y).d_omega_d_area()
     }
+}
+
+/// w at (u, v).
+#[inline(always)]
+fn bilinear<R: Real>([w00, w10, w01, w11]: [R; 4], [u, v]: [R; 2]) -> R {
+    (w00 + (w01 - w00) * v) * (R::one() - u) + (w10 + (w11 - w10) * v) * u
 }
 
 /// The number in \[0, 1\] that ξ draws by a density that goes from a to b: ξ (a + b)/(a + √(a² + ξ (b² − a²))).

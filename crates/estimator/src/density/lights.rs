@@ -24,6 +24,13 @@ pub trait Spread: Sync {
     /// The point of a target, or of a piece of one, that two uniform numbers pick.
     fn point<R: Real>(&self, from: &Vantage<R>, piece: R::Word, uv: [R; 2]) -> SurfacePoint<R>;
 
+    /// The same point, and dm/dA there as the draw knows it: before y was rounded.
+    #[inline(always)]
+    fn draw<R: Real>(&self, from: &Vantage<R>, piece: R::Word, uv: [R; 2]) -> (SurfacePoint<R>, R) {
+        let y = self.point(from, piece, uv);
+        (y, self.per_area(from, &y))
+    }
+
     /// dm/dA at y: how much of the measure there is per square metre of the target; not positive where there is none.
     fn per_area<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> R;
 }
@@ -78,8 +85,8 @@ impl<S: Spread> Density<SurfaceArea> for OnLights<'_, S> {
     #[inline(always)]
     fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
         let Picked { piece, u, density } = self.picking.pick::<R>(xi.pick());
-        let at = self.spread.point(from, piece, [u, xi.v()]);
-        let pdf = density * self.spread.per_area(from, &at);
+        let (at, per_area) = self.spread.draw(from, piece, [u, xi.v()]);
+        let pdf = density * per_area;
         Masked::new(Sample { at, pdf: Pdf::new(pdf) }, R::zero().lt(pdf))
     }
 

@@ -162,7 +162,8 @@ pub(crate) fn direction<R: Real>(row: &[R; ROW], [u, v]: [R; 2]) -> Vector<R> {
     Vector::new(b_x * along_b + d.x * rho, b_y * along_b + d.y * rho, (one - b_depth) * along_b + d.z * rho)
 }
 
-/// The two uniform numbers that pick Ψ, which is given along ξ, η and ζ. At B every u does, and anything may be said.
+/// The two uniform numbers that pick Ψ, which is given along ξ, η and ζ; outside the triangle one of them is not within 0 and 1. At
+/// B every u picks the same, and anything may be said.
 #[inline(always)]
 pub(crate) fn numbers<R: Real>(row: &[R; ROW], psi: Vector<R>) -> [R; 2] {
     let [turns, tan_sin, tan_cos, sin_half, cos_half, b_x, b_y, b_depth] = *row;
@@ -177,11 +178,9 @@ pub(crate) fn numbers<R: Real>(row: &[R; ROW], psi: Vector<R>) -> [R; 2] {
     let (sin, cos) = (c_x * cos_half + c_z * sin_half, c_z * cos_half - c_x * sin_half);
     let tan = sin / (one + cos);
     let beta = arc_tangent(tan * tan_sin, one + tan * tan_cos);
-    let to = [psi.x - b_x, psi.y - b_y, psi.z - b_z];
-    let end = [c_x - b_x, -b_y, c_z - b_z];
-    let [to, end] = [to, end].map(
-        #[inline(always)]
-        |[x, y, z]| x * x + y * y + z * z,
-    );
-    [beta / (turns * R::splat(std::f32::consts::TAU)), to / end]
+    let to = Vector::new(psi.x - b_x, psi.y - b_y, psi.z - b_z);
+    let end = Vector::new(c_x - b_x, -b_y, c_z - b_z);
+    let v = to.dot(to) / end.dot(end);
+    let behind = to.dot(end).lt(R::zero());
+    [beta / (turns * R::splat(std::f32::consts::TAU)), R::select(behind, -v, v)]
 }

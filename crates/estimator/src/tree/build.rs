@@ -46,7 +46,7 @@ impl<'e> Build<'e> {
     fn child(&self, targets: &[u32]) -> [f32; row::CHILD] {
         let emitters = || targets.iter().map(|&target| &self.emitters[target as usize]);
         let bounds = self.bounds(targets);
-        let corners = emitters().flat_map(|emitter| emitter.corners());
+        let corners = emitters().flat_map(Emitter::corners);
         let radius = corners.map(|corner| corner.distance(bounds.middle())).fold(0.0, f64::max);
         let normals: DVec3 = emitters().map(|emitter| emitter.normal * emitter.power).sum();
         let cone = match normals.try_normalize() {

@@ -44,7 +44,7 @@ impl<'t> Walk<'t> {
                     let (left, right) = self.children(&node);
                     let to_left = R::below(word, left.words);
                     word = choose::<R>(inner(&node), to_left, [word, word, word.wrapping_sub(left.words)]);
-                    node = step(&node, to_left, left, right);
+                    node = step(&node, to_left, &left, &right);
                 }
                 let target = self.target::<R>(node.first);
                 let u = (R::from_word(word) + R::splat(0.5)) / count::<R>(node.words);
@@ -67,7 +67,7 @@ impl<'t> Walk<'t> {
                 let mut node = self.root::<R>();
                 while inner(&node).any() {
                     let (left, right) = self.children(&node);
-                    node = step(&node, R::below(place, right.first), left, right);
+                    node = step(&node, R::below(place, right.first), &left, &right);
                 }
                 self.density_of(node.words, target)
             },
@@ -173,7 +173,7 @@ fn inner<R: Real>(node: &Node<R>) -> R::Mask {
 
 /// To the left child or to the right; leaves stay, at a row that there is.
 #[inline(always)]
-fn step<R: Real>(node: &Node<R>, to_left: R::Mask, left: Node<R>, right: Node<R>) -> Node<R> {
+fn step<R: Real>(node: &Node<R>, to_left: R::Mask, left: &Node<R>, right: &Node<R>) -> Node<R> {
     let inner = inner(node);
     let leaves = choose::<R>(inner, to_left, [node.leaves, left.leaves, right.leaves]);
     let row = choose::<R>(inner, to_left, [node.row, left.row, right.row]);

@@ -1,8 +1,8 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
-    TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, BilinearCosineOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
+    SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use twoforms_estimator::measure::Measure;
 use twoforms_estimator::query::Query;
@@ -29,27 +29,32 @@ pub fn visit<V: Visitor>(technique: Technique, query: &Query, view: &View, visit
         Kind::HemisphereTowardLights => {
             let ready = TowardPreparedLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
-            visitor.visit(view, &density, &LightCells::new(view, &density.lights.picker))
+            visitor.visit(view, &density, &LightCells::new(view, &density.lights.picking))
         }
         Kind::HemisphereTowardLightsMarginal => {
             let ready = TowardLightsMarginally::prepare(query.lights(), selection);
             let density = ready.at(view, query);
-            visitor.visit(view, &density, &LitDirections::new(view, &density.lights.picker))
+            visitor.visit(view, &density, &LitDirections::new(view, &density.lights.picking))
         }
         Kind::AreaUniform => {
             let ready = AreaOnLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
-            visitor.visit(view, &density, &LightCells::new(view, &density.picker))
+            visitor.visit(view, &density, &LightCells::new(view, &density.picking))
         }
         Kind::AreaSolidAngle => {
             let ready = SolidAngleOnLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
-            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picking))
         }
         Kind::AreaProjectedSolidAngle => {
             let ready = ProjectedSolidAngleOnLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
-            visitor.visit(view, &density, &LightCells::varying(view, &density.picker))
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picking))
+        }
+        Kind::AreaBilinearCosine => {
+            let ready = BilinearCosineOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
+            visitor.visit(view, &density, &LightCells::varying(view, &density.picking))
         }
     }
 }

@@ -64,13 +64,13 @@ pub fn samples(case: &Case, strategy: Strategy, sampler: Sampler, n: u32, seed: 
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let (query, prepared) = (Query::irradiance(&world.lights), strategy.prepare(&world.lights));
-    Samples::new(seed, &case.place, strategy, sampler, n).of(&*prepared.at(&view, &query, &known(case)))
+    Samples::new(seed, &case.place, strategy, sampler, n).of(&*prepared.at(&view, &query, &known(case, strategy)))
 }
 
-/// What strategies may know beforehand at a receiver.
-pub fn known(case: &Case) -> Known {
-    let optimal: Vec<Strategy> = Strategy::all().into_iter().filter(|strategy| strategy.needs_alpha()).collect();
-    exactly::at(&case.stage.world, &case.place, &optimal).known()
+/// What a strategy may know beforehand at a receiver.
+pub fn known(case: &Case, strategy: Strategy) -> Known {
+    let asked: Vec<Strategy> = Some(strategy).into_iter().filter(|strategy| strategy.needs_alpha().is_some()).collect();
+    exactly::at(&case.stage.world, &case.place, &asked).known()
 }
 
 /// The moments of one channel.

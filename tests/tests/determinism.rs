@@ -78,12 +78,11 @@ fn bits_do_not_depend_on_the_instructions() {
     for case in worlds::cases(&worlds::all()) {
         let world = &case.stage.world;
         let query = Query::irradiance(&world.lights);
-        let known = samples::known(&case);
         let efforts = [Effort::Gather, Effort::Cast];
         let pairs = efforts.into_iter().flat_map(|effort| Strategy::all().into_iter().map(move |s| (effort, s)));
         for (effort, strategy) in pairs {
             let view = View::new(&world.geometry, case.place.frame(), effort);
-            let prepared = strategy.prepare(&world.lights);
+            let (prepared, known) = (strategy.prepare(&world.lights), samples::known(&case, strategy));
             for n in [1, 17, 1000] {
                 let draws = Draws { key: Key::new([u64::from(n)]), stream: [n, 3] };
                 for &sampler in Sampler::ALL.iter().filter(|sampler| sampler.is_random()) {

@@ -4,13 +4,13 @@
 use std::borrow::Cow;
 use std::f32::consts::TAU;
 
-use twoforms_estimator::density::{ByArea, CosineHemisphere, Density, OnLights, TowardLights};
+use twoforms_estimator::density::{ByArea, CosineHemisphere, Density, OnLights, Picking, TowardLights};
 use twoforms_estimator::estimator::Single;
 use twoforms_estimator::formulation::{Area, Formulation, Hemisphere};
 use twoforms_estimator::measure::{Aim, Integrand, Measure, Pdf, Sample, SolidAngle, SurfaceArea};
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::selection::{Picker, Selection};
+use twoforms_estimator::selection::{Picked, Picker, Selection};
 use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::Kind;
 use twoforms_estimator::xi::Xi;
@@ -109,14 +109,14 @@ struct AreaToldSolidAngle<'p>(OnLights<'p, ByArea>);
 impl Density<SolidAngle> for AreaToldSolidAngle<'_> {
     fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let told = |Sample { at, .. }: Sample<SolidAngle, R>| {
-            let density = self.0.picker.density::<R>(at.target);
+            let density = self.0.picking.density::<R>(at.target);
             Sample { at, pdf: Pdf::new(density) }
         };
         TowardLights { lights: self.0.clone() }.sample(view, xi).map(told)
     }
 
     fn pdf<R: Real>(&self, view: &Vantage<R>, at: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
-        TowardLights { lights: self.0.clone() }.pdf(view, at).map(|_| Pdf::new(self.0.picker.density::<R>(at.target)))
+        TowardLights { lights: self.0.clone() }.pdf(view, at).map(|_| Pdf::new(self.0.picking.density::<R>(at.target)))
     }
 }
 
@@ -145,7 +145,7 @@ struct WithoutSquareRoot<'p>(OnLights<'p, ByArea>);
 
 impl Density<SurfaceArea> for WithoutSquareRoot<'_> {
     fn sample<R: Real>(&self, view: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SurfaceArea, R>, R> {
-        let (target, u) = self.0.picker.pick::<R>(xi.pick());
+        let Picked { piece: target, u, .. } = self.0.picking.pick::<R>(xi.pick());
         let at = view.facet(target).point([u * u, xi.v()], target);
         self.pdf(view, &at).map(|pdf| Sample { at, pdf })
     }
@@ -157,7 +157,7 @@ impl Density<SurfaceArea> for WithoutSquareRoot<'_> {
 
 /// Points uniform over the area of targets picked so.
 fn on(picker: &Picker) -> OnLights<'_, ByArea> {
-    OnLights { picker: Cow::Borrowed(picker), spread: ByArea }
+    OnLights { picking: Picking::Listed(Cow::Borrowed(picker)), spread: ByArea }
 }
 
 /// What a wrong estimator is tried on.
@@ -267,7 +267,8 @@ fn wrong_densities_are_rejected() {
     };
     let directions = |density: &CosineToldUniform| chi_square(&near.view, density, &HemisphereCells, &near.draws);
     let picker = triangle.picker(Selection::Together);
-    let cells = LightCells::new(&triangle.view, &picker);
+    let picking = Picking::Listed(Cow::Borrowed(&picker));
+    let cells = LightCells::new(&triangle.view, &picking);
     let points = chi_square(&triangle.view, &WithoutSquareRoot(on(&picker)), &cells, &triangle.draws);
     let wrong = vec![
         outcome("cosine-weighted directions told uniform", directions(&CosineToldUniform)),

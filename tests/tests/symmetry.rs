@@ -91,10 +91,19 @@ fn under(matrix: [[f64; 3]; 3], document: &mut Value) {
     document["scenes"][0]["nodes"] = json!([root]);
 }
 
+/// Strategies whose density does not depend on the axes of the world to the last bit. The tree's bounds are rounded along them.
+fn indifferent_to_axes() -> Vec<Strategy> {
+    let by_tree = |strategy: &Strategy| matches!(strategy, Strategy::Single(t) if t.selection == Selection::Tree);
+    with_formula().into_iter().filter(|strategy| !by_tree(strategy)).collect()
+}
+
+/// But for the bilinear cosine, whose map takes the sides of a light in the order in which its corners run.
 #[test]
 fn a_mirror_changes_nothing() {
     let mirrored = world(&parts(), &receivers(), mirror);
-    same_light(&mirrored, &plain(&parts()), &with_formula());
+    let one_sided = |strategy: &Strategy| matches!(strategy, Strategy::Single(t) if t.kind == Kind::AreaBilinearCosine);
+    let strategies: Vec<Strategy> = indifferent_to_axes().into_iter().filter(|s| !one_sided(s)).collect();
+    same_light(&mirrored, &plain(&parts()), &strategies);
 }
 
 #[test]
@@ -104,13 +113,16 @@ fn quarter_turns_change_nothing() {
     let turns = [[minus(z), y, x], [minus(x), y, minus(z)], [y, minus(x), z], [y, z, x], [x, z, minus(y)]];
     for turn in turns {
         let turned = world(&parts(), &receivers(), |document| under(turn, document));
-        same_light(&turned, &plain(&parts()), &with_formula());
+        same_light(&turned, &plain(&parts()), &indifferent_to_axes());
     }
 }
 
 /// Strategies whose density over points does not depend on how lights of one radiance are cut into primitives.
 fn indifferent_to_cuts() -> Vec<Strategy> {
     let depends = |strategy: &Strategy| match *strategy {
+        Strategy::Single(
+            Technique { kind: Kind::AreaBilinearCosine, .. } | Technique { selection: Selection::Tree, .. },
+        ) => true,
         Strategy::Single(Technique { kind: Kind::AreaUniform | Kind::HemisphereTowardLights, selection }) => {
             matches!(selection, Selection::Uniform | Selection::Contribution)
         }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use twoforms_estimator::rgb::luminance;
-use twoforms_estimator::strategy::{Known, Strategy};
+use twoforms_estimator::strategy::{Known, Strategy, Team};
 use twoforms_exact::{Error, Sight, Value, receiver};
 
 pub use twoforms_exact::with_formula;
@@ -28,9 +28,9 @@ pub struct ExactResult {
     /// The light there.
     #[serde(flatten)]
     pub light: ExactLight,
-    /// α of the default team with optimal weights, RGB, where a strategy uses it.
+    /// α of teams with optimal weights, RGB, where strategies use them and they can be had.
     #[serde(skip)]
-    pub(crate) alpha: Option<[[f64; 3]; 2]>,
+    pub(crate) alpha: Vec<(Team, Vec<[f64; 3]>)>,
     /// The light along a sweep, where one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Swept>,
@@ -107,21 +107,22 @@ pub fn exactly(
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
     let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
-    let needed = strategies.iter().any(|strategy| strategy.needs_alpha());
-    let alpha = sight.as_ref().ok().filter(|_| needed).and_then(|sight| sight.optimal_alpha().ok());
+    let teams = strategies.iter().filter_map(|strategy| strategy.needs_alpha());
+    let of = |team| Some((team, sight.as_ref().ok()?.optimal_alpha(team).ok()?));
+    let alpha = teams.filter_map(of).collect();
     ExactResult { alpha, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
 }
 
 impl ExactResult {
     /// What is known beforehand for strategies that use it, as far as those that were asked about do.
     pub fn known(&self) -> Known {
-        Known { alpha: self.alpha }
+        Known { alpha: self.alpha.clone(), ..Known::default() }
     }
 
     /// What is known at a place.
     pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
         let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());
-        Self { name, position, normal, light, alpha: None, sweep }
+        Self { name, position, normal, light, alpha: Vec::new(), sweep }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use twoforms_estimator::sampler::Sampler;
-use twoforms_estimator::strategy::{Prepared, Strategy};
+use twoforms_estimator::strategy::{Known, Prepared, Strategy};
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::view::{Effort, View};
 
@@ -58,9 +58,6 @@ impl Experiment {
         places: &[Place],
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<ReceiverResult>, ComparisonError> {
-        if let Some(why) = self.strategies.iter().find_map(|strategy| strategy.impossible()) {
-            return Err(ComparisonError::Impossible(why));
-        }
         self.admit()?;
         let prepared: Vec<Prepared> = self.strategies.iter().map(|s| s.prepare(&world.lights)).collect();
         let plans = self.plans(&prepared);
@@ -139,16 +136,20 @@ impl Experiment {
 
     /// Makes sure that what strategies must know beforehand is known everywhere.
     fn check_known(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
-        let Some(strategy) = self.strategies.iter().find(|strategy| strategy.needs_alpha()) else { return Ok(()) };
-        let unknown = places.iter().zip(ready).find(|(_, ready)| ready.answer.known().alpha.is_none());
-        match unknown {
-            None => Ok(()),
-            Some((place, ready)) => Err(ComparisonError::Impossible(format!(
-                "\"{strategy}\" needs α, which is not known at receiver \"{}\": {}; leave the strategy or the receiver out",
-                place.name,
-                ready.answer.irradiance().err().unwrap_or("its integrals do not converge there"),
-            ))),
+        for strategy in &self.strategies {
+            let Some(team) = strategy.needs_alpha() else { continue };
+            let unknown = |(_, ready): &(&Place, &Ready)| ready.answer.known().alpha(team).is_none();
+            if let Some((place, ready)) = places.iter().zip(ready).find(unknown) {
+                let why = ready.answer.variance_of_one(*strategy).err();
+                return Err(ComparisonError::Impossible(format!(
+                    "\"{strategy}\" needs α, which is not known at receiver \"{}\": {}; leave the strategy or the receiver out, \
+                     or take mis/optimal-pilot/64",
+                    place.name,
+                    why.as_deref().unwrap_or("its integrals do not converge there"),
+                )));
+            }
         }
+        Ok(())
     }
 
     /// Cuts one row's replicates into tasks, by N and R alone.
@@ -169,7 +170,7 @@ impl Experiment {
     ) -> Result<Measurement, Broken> {
         let strategy = plan.prepared.strategy();
         let key = self.key(place, strategy, plan.sampler);
-        let (query, known) = (place.query(&world.lights), ready.answer.known());
+        let (query, known) = (place.query(&world.lights), Known { key, ..ready.answer.known() });
         Measurement::of(plan, &ready.view, &query, &known, place.emission(), key, task).map_err(
             |(replicate, source)| Broken {
                 receiver: place.name.clone(),

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use rand_philox::splitmix64;
-use twoforms_estimator::density::{SphericalTriangle, spherical_triangles};
+use twoforms_estimator::density::{Piece, SphericalTriangle, each_piece};
 
 fn main() {
     let number = |k: usize, default: u64| args().nth(k).and_then(|text| text.parse().ok()).unwrap_or(default);
@@ -17,7 +17,10 @@ fn main() {
     let mut by_size = [[0.0_f64; 2]; 10];
     for _ in 0..count {
         let corners = random.triangle();
-        for triangle in spherical_triangles(&corners) {
+        let mut pieces = Vec::new();
+        each_piece(&corners, |piece| pieces.push(piece));
+        for piece in pieces {
+            let Piece::Triangle(triangle) = piece else { continue };
             let uv = [random.uniform() as f32, random.uniform().max(1.0 / 64.0) as f32];
             let off = error(&triangle, uv);
             assert!(off.iter().all(|e| e.is_finite()), "not a number: {corners:?} at {uv:?}");

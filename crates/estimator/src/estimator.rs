@@ -1,7 +1,6 @@
 //! Estimators of the light that x receives: the lecture's primary estimator, by techniques and combinations of them.
 
 use twoforms_geometry::lanes::{Instructions, Kernel};
-use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::vector::Vector;
 use twoforms_geometry::view::{Vantage, View};
@@ -13,7 +12,6 @@ use crate::measure::Sample;
 use crate::numbers::Drawn;
 use crate::query::Query;
 use crate::rgb::Rgb;
-use crate::xi::Xi;
 
 /// What one sample is worth, and the rays that it asked for.
 #[derive(Clone, Copy, Debug)]
@@ -125,11 +123,6 @@ impl<'a, F: Formulation, D: Density<F::Measure>> Single<'a, F, D> {
     /// The estimator of `query` at x by formulation F with points drawn from `density`.
     pub fn new(view: &'a View<'a>, query: &'a Query<'a>, density: D) -> Self {
         Self { view, query, density, formulation: std::marker::PhantomData }
-    }
-
-    /// The drawn point and its density, for tests and figures.
-    pub fn sample<R: Real>(&self, xi: Xi<R>) -> Masked<Sample<F::Measure, R>, R> {
-        self.density.sample(&self.view.from_x(), xi)
     }
 }
 

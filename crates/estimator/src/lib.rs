@@ -5,7 +5,7 @@
 //! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
 
 pub mod batch;
-mod combination;
+pub mod combination;
 pub mod density;
 pub mod estimate;
 pub mod estimator;
@@ -24,4 +24,5 @@ pub mod secondary;
 pub mod selection;
 pub mod strategy;
 pub mod technique;
+pub mod tree;
 pub mod xi;

@@ -1,10 +1,13 @@
 //! The lights of a scene, as estimators need them.
 
+use std::sync::{Arc, OnceLock};
+
 use twoforms_geometry::solid_angle::projected_solid_angle;
 use twoforms_geometry::view::View;
 use twoforms_scene::Scene;
 
 use crate::rgb::luminance;
+use crate::tree::{Emitter, Tree};
 
 /// What is constant over each target: its area, its radiance, and the light it belongs to.
 #[derive(Clone, Debug)]
@@ -14,6 +17,8 @@ pub struct Lights {
     light: Vec<usize>,
     light_area: Vec<f64>,
     power: Vec<f64>,
+    emitters: Vec<Emitter>,
+    tree: OnceLock<Arc<Tree>>,
 }
 
 impl Lights {
@@ -21,7 +26,13 @@ impl Lights {
     pub fn new(scene: &Scene) -> Self {
         let targets = &scene.targets;
         let indices = 0..targets.len() as u32;
+        let emitter = |k: u32| {
+            let radiance = luminance(scene.target_radiance(k).map(f64::from));
+            Emitter::new(&targets[k as usize], &scene.mesh, radiance)
+        };
         Self {
+            emitters: indices.clone().map(emitter).collect(),
+            tree: OnceLock::new(),
             radiance: indices.clone().map(|k| scene.target_radiance(k)).collect(),
             area: targets.iter().map(|target| target.area(&scene.mesh)).collect(),
             light: indices.map(|k| scene.light_of(k)).collect(),
@@ -72,6 +83,11 @@ impl Lights {
     /// Area of each light in square metres, once, whatever the sides.
     pub fn light_areas(&self) -> &[f64] {
         &self.light_area
+    }
+
+    /// The tree over the targets, of which there must be one; built when it is first asked for.
+    pub fn tree(&self) -> &Arc<Tree> {
+        self.tree.get_or_init(|| Arc::new(Tree::new(&self.emitters, &self.area)))
     }
 
     /// Luminous power of each light: π A L for each side that emits.

@@ -1,8 +1,10 @@
 //! Which target a point is drawn on.
 
 use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::view::View;
 
 use crate::lights::Lights;
+use crate::tree::Walk;
 use crate::xi::unit;
 
 /// How the light is picked before a point on it: the word after `@`.
@@ -16,11 +18,13 @@ pub enum Selection {
     Power,
     /// Each light in proportion to the luminance of its unoccluded irradiance at x.
     Contribution,
+    /// No light but a target, by a [`Tree`](crate::tree::Tree).
+    Tree,
 }
 
 impl Selection {
     /// All selections.
-    pub const ALL: [Self; 4] = [Self::Together, Self::Uniform, Self::Power, Self::Contribution];
+    pub const ALL: [Self; 5] = [Self::Together, Self::Uniform, Self::Power, Self::Contribution, Self::Tree];
 
     /// What it adds to a strategy's name.
     pub fn suffix(self) -> &'static str {
@@ -29,6 +33,7 @@ impl Selection {
             Self::Uniform => "@uniform",
             Self::Power => "@power",
             Self::Contribution => "@contribution",
+            Self::Tree => "@tree",
         }
     }
 }
@@ -36,19 +41,32 @@ impl Selection {
 impl Selection {
     /// Whether the probabilities depend on x.
     pub fn depends_on_x(self) -> bool {
-        self == Self::Contribution
+        matches!(self, Self::Contribution | Self::Tree)
+    }
+
+    /// What each target counts at x where that is asked for: the luminance of its unoccluded irradiance, or its probability by
+    /// the tree.
+    pub(crate) fn at_x(self, lights: &Lights, view: &View) -> Vec<f64> {
+        match self {
+            Self::Tree => Walk::new(lights.tree(), view.frame()).probabilities(),
+            _ => lights.contributions(view),
+        }
     }
 
     /// The probability of each target, up to a common factor: that of its light, then its share of the light's `measure`;
-    /// and that of lights that have no measure.
-    /// `contributions` are the unoccluded irradiances of the targets at x, luminance, asked for where they count.
-    fn weights(self, lights: &Lights, measure: &[f64], contributions: impl FnOnce() -> Vec<f64>) -> (Vec<f64>, f64) {
+    /// and that of lights that have no measure. By the tree, that of each target that has a measure.
+    /// `at_x` is [`Selection::at_x`], asked for where it counts.
+    fn weights(self, lights: &Lights, measure: &[f64], at_x: impl FnOnce() -> Vec<f64>) -> (Vec<f64>, f64) {
         let whole = lights.sums(measure);
         let of_light = match self {
             Self::Together => return (measure.to_vec(), 0.0),
             Self::Uniform => vec![1.0; whole.len()],
             Self::Power => lights.powers().to_vec(),
-            Self::Contribution => lights.sums(&contributions()),
+            Self::Contribution => lights.sums(&at_x()),
+            Self::Tree => {
+                let listed = |(p, &m): (f64, &f64)| if m > 0.0 { p } else { 0.0 };
+                return (at_x().into_iter().zip(measure).map(listed).collect(), 0.0);
+            }
         };
         let share = |(&light, &m): (&usize, &f64)| if m > 0.0 { of_light[light] * m / whole[light] } else { 0.0 };
         let empty = of_light.iter().zip(&whole).filter(|&(_, &whole)| whole <= 0.0);
@@ -90,8 +108,19 @@ pub struct Piece {
 struct Share {
     first: u32,
     piece: u32,
-    /// 1 / (number of words).
-    scale: f32,
+    /// 1 / (number of words), and the density of the piece's target.
+    numbers: [f32; 2],
+}
+
+/// What a random word picks.
+#[derive(Clone, Copy, Debug)]
+pub struct Picked<R: Real> {
+    /// The piece; the target where targets are whole.
+    pub piece: R::Word,
+    /// What is left of the word: a uniform number.
+    pub u: R,
+    /// The probability of picking the target over its measure.
+    pub density: R,
 }
 
 const WORDS: u64 = 1 << 32;
@@ -100,30 +129,25 @@ const FEW: usize = 16;
 
 impl Picker {
     /// The distribution of `selection` over the targets, points of a target being uniform in `measure`; it depends on x where
-    /// the measure or the selection does, which asks for `contributions` then.
-    pub fn new(
-        selection: Selection,
-        lights: &Lights,
-        measure: &[f64],
-        contributions: impl FnOnce() -> Vec<f64>,
-    ) -> Self {
+    /// the measure or the selection does, which asks then for what targets count `at_x`.
+    pub(crate) fn new(selection: Selection, lights: &Lights, measure: &[f64], at_x: impl FnOnce() -> Vec<f64>) -> Self {
         let whole = |(k, &measure): (usize, &f64)| Piece { target: k as u32, measure };
-        Self::over(selection, lights, &measure.iter().enumerate().map(whole).collect::<Vec<_>>(), contributions)
+        Self::over(selection, lights, &measure.iter().enumerate().map(whole).collect::<Vec<_>>(), at_x)
     }
 
     /// The same over the pieces that the targets fall into, in scene order. Where a light is picked that has none, a piece
     /// beyond the last is drawn.
-    pub fn over(
+    pub(crate) fn over(
         selection: Selection,
         lights: &Lights,
         pieces: &[Piece],
-        contributions: impl FnOnce() -> Vec<f64>,
+        at_x: impl FnOnce() -> Vec<f64>,
     ) -> Self {
         let mut measure = vec![0.0; lights.targets()];
         for piece in pieces {
             measure[piece.target as usize] += piece.measure;
         }
-        let (weights, empty) = selection.weights(lights, &measure, contributions);
+        let (weights, empty) = selection.weights(lights, &measure, at_x);
         Self::of(&weights, empty, &measure, pieces)
     }
 
@@ -146,12 +170,16 @@ impl Picker {
         let mass = words.iter().sum::<u64>() as f64 / WORDS as f64;
         let of_words =
             |(&words, &m): (&u64, &f64)| if words > 0 { (words as f64 / WORDS as f64 / m) as f32 } else { 0.0 };
-        let density = words.iter().zip(measure).map(of_words).collect();
-        let share =
-            |k: usize| Share { first: bounds[k] as u32, piece: k as u32, scale: (1.0 / width(k) as f64) as f32 };
+        let density: Vec<f32> = words.iter().zip(measure).map(of_words).collect();
+        let of_piece = |k: usize| pieces.get(k).map_or(0.0, |piece| density[piece.target as usize]);
+        let share = |k: usize| Share {
+            first: bounds[k] as u32,
+            piece: k as u32,
+            numbers: [(1.0 / width(k) as f64) as f32, of_piece(k)],
+        };
         let mut shares: Vec<Share> = (0..=pieces.len()).filter(|&k| width(k) > 0).map(share).collect();
         if shares.is_empty() {
-            shares.push(Share { first: 0, piece: 0, scale: 1.0 / WORDS as f32 });
+            shares.push(Share { first: 0, piece: 0, numbers: [1.0 / WORDS as f32, 0.0] });
         }
         let leading = usize::BITS - shares.len().leading_zeros();
         let trailing = u32::BITS - leading;
@@ -206,20 +234,20 @@ impl Picker {
 }
 
 impl Picker {
-    /// The piece that a random word picks, and the word rescaled to a uniform number. Targets that are whole are each a piece.
+    /// What a random word picks. Targets that are whole are each a piece.
     #[inline(always)]
-    pub fn pick<R: Real>(&self, word: R::Word) -> (R::Word, R) {
+    pub fn pick<R: Real>(&self, word: R::Word) -> Picked<R> {
         if let [only] = self.shares[..] {
-            return (R::Word::splat(only.piece), unit(word));
+            return Picked { piece: R::Word::splat(only.piece), u: unit(word), density: R::splat(only.numbers[1]) };
         }
         let share = if self.shares.len() <= FEW { self.tried::<R>(word) } else { self.looked_up::<R>(word) };
-        let [scale] = R::gather(
+        let [scale, density] = R::gather(
             share,
             #[inline(always)]
-            |k| [self.shares[k as usize].scale],
+            |k| self.shares[k as usize].numbers,
         );
         let (first, piece) = (self.first::<R>(share), self.piece::<R>(share));
-        (piece, (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale)
+        Picked { piece, u: (R::from_word(word.wrapping_sub(first)) + R::splat(0.5)) * scale, density }
     }
 
     /// The probability that a target is picked: less than one where a light is picked that has none to be drawn on.

@@ -8,8 +8,8 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
-    TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, BilinearCosineOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
+    SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use crate::estimator::{Estimator, Single};
 use crate::formulation::{Area, Formulation, Hemisphere};
@@ -149,6 +149,8 @@ techniques! {
     AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
     /// Points on what rises above the horizon of the targets that face x, uniform in projected solid angle.
     AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
+    /// The same targets as by solid angle, times a cosine that is bilinear over each.
+    AreaBilinearCosine: Area, BilinearCosineOnLights = "area/bilinear-cosine" @selection,
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

@@ -66,6 +66,9 @@ pub enum Error {
     /// No formula is known here for the variance of this strategy.
     #[error("no formula is known for its variance")]
     NoFormula,
+    /// What the tree would pick is not known.
+    #[error("the tree over the targets is not known here, where lights are listed one by one or have been moved")]
+    NoTree,
     /// The selection never picks a light that contributes, so the estimator has no finite variance
     /// about the irradiance.
     #[error("light {light} contributes but is never picked: choose another selection")]

@@ -101,7 +101,8 @@ impl Outcome {
 pub struct Colours(pub Vec<[f64; 4]>);
 
 impl Colours {
-    fn of(&self, seen: usize) -> [f64; 4] {
+    /// Those of one facet.
+    pub(crate) fn of(&self, seen: usize) -> [f64; 4] {
         self.0[seen]
     }
 }

@@ -11,9 +11,11 @@
 //! multiply E by ρ/π and variances by (ρ/π)².
 
 pub mod arc;
+pub mod bilinear;
 pub mod clip;
 pub mod cone;
 pub mod cubature;
+pub mod density;
 pub mod error;
 pub mod facet;
 pub mod facing;
@@ -23,6 +25,7 @@ pub mod law;
 pub mod mis;
 pub mod moments;
 pub mod moved;
+pub mod optimal;
 pub mod outline;
 pub mod picked;
 pub mod receiver;

@@ -1,176 +1,122 @@
-//! Weighted pairs and mixtures of `area/uniform` and `hemisphere/cosine`.
+//! Teams of techniques, weighted, and mixtures of two.
 //!
-//! Everything depends on one number at each point of a light, ρ = p_h/p_a = A g/π with p_a = r²/(A
-//! cosθ_y), p_h = cosθ_x/π and g = cosθ_x cosθ_y/r²; and p_a dω = dA/A. So F/p_a = L π ρ, and ∫ …
-//! p_h dω = ∫ … ρ dA/A. No density is divided by.
+//! Densities, integrands and values are per area at a point y of a light: F = L g with g = cosθ_x cosθ_y/r², q_k = n_k p_k.
 
-use std::f64::consts::PI;
+use glam::DVec3;
+use twoforms_estimator::strategy::{Team, Weighting};
+use twoforms_estimator::technique::Technique;
 
+use crate::density::Density;
 use crate::error::Error;
-use crate::law::{Law, Outcome, Part};
+use crate::law::Law;
+use crate::seen::Seen;
 use crate::sight::Sight;
-use crate::spread::by_cubature;
-use crate::value::EPSILON;
+use crate::spread::{by_cubature, by_rough_cubature};
 
-/// The law of one sample of density `weight`(ρ) p_a and value L π `value`(ρ); `hidden` is the
-/// probability of a miss and its error bound.
-fn law(
-    sight: &Sight,
-    hidden: (f64, f64),
-    value: impl Fn(f64) -> f64,
-    weight: impl Fn(f64) -> f64,
-) -> Result<Law, Error> {
-    let area = sight.total_area();
-    let mut law = Law { parts: Vec::new(), hidden: hidden.0, hidden_error: hidden.1 };
-    for (index, seen) in sight.seen.iter().enumerate().filter(|(_, seen)| seen.is_visible()) {
+/// Densities below this share of the largest are cut off.
+const CUT: f64 = 0.1;
+
+/// The densities of a team's members at one x, each with n, the samples that it draws.
+pub struct Members(Vec<(Density, f64)>);
+
+impl Members {
+    /// # Errors
+    /// As [`Density::new`].
+    pub fn new(sight: &Sight, team: Team) -> Result<Self, Error> {
+        let member = |member: twoforms_estimator::strategy::Member| {
+            Ok((Density::new(sight, member.technique)?, f64::from(member.samples)))
+        };
+        team.members().map(member).collect::<Result<_, Error>>().map(Self)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// n of a member.
+    pub fn samples(&self, member: usize) -> f64 {
+        self.0[member].1
+    }
+
+    /// The probability that a sample of a member is worth zero, and a bound of its error.
+    pub fn missed(&self, member: usize) -> (f64, f64) {
+        self.0[member].0.missed()
+    }
+
+    /// p_k at y, zeros after the last.
+    pub fn densities(&self, index: usize, seen: &Seen, y: DVec3) -> [f64; 3] {
+        let mut p = [0.0; 3];
+        p.iter_mut().zip(&self.0).for_each(|(p, (density, _))| *p = density.per_area(index, seen, y));
+        p
+    }
+
+    /// q_k = n_k p_k.
+    pub fn expected(&self, p: [f64; 3]) -> [f64; 3] {
+        let mut q = p;
+        q.iter_mut().zip(&self.0).for_each(|(q, (_, n))| *q *= n);
+        q
+    }
+
+    /// The law of one sample of each member: it is worth w_i F/q_i.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`]; [`Error::NoFormula`] for weights that need α.
+    pub fn laws(&self, sight: &Sight, weighting: Weighting) -> Result<Vec<Law>, Error> {
+        (0..self.count()).map(|i| self.law(sight, weighting, i)).collect()
+    }
+
+    fn law(&self, sight: &Sight, weighting: Weighting, i: usize) -> Result<Law, Error> {
+        let (hidden, hidden_error) = self.missed(i);
+        let mut law = Law { parts: Vec::new(), hidden, hidden_error };
+        for (index, seen) in visible(sight) {
+            let f = |y: DVec3| {
+                let p = self.densities(index, seen, y);
+                [seen.g(y) * over(weighting, self.expected(p), i), p[i]]
+            };
+            law.parts.push(match weighting {
+                Weighting::Balance | Weighting::Power => by_cubature(index, seen, f)?,
+                Weighting::Cutoff | Weighting::Maximum => by_rough_cubature(index, seen, f)?,
+                _ => return Err(Error::NoFormula),
+            });
+        }
+        Ok(law)
+    }
+}
+
+/// w_i/q_i.
+fn over(weighting: Weighting, q: [f64; 3], i: usize) -> f64 {
+    let most = q.iter().copied().fold(0.0, f64::max);
+    let sum_from = |bound: f64| q.iter().filter(|&&q| q >= bound).sum::<f64>();
+    match weighting {
+        Weighting::Power => q[i] / q.iter().map(|q| q * q).sum::<f64>(),
+        Weighting::Cutoff if q[i] < CUT * most => 0.0,
+        Weighting::Cutoff => 1.0 / sum_from(CUT * most),
+        Weighting::Maximum if q.iter().position(|&q| q == most) != Some(i) => 0.0,
+        Weighting::Maximum => 1.0 / most,
+        _ => 1.0 / sum_from(0.0),
+    }
+}
+
+/// The law of one sample of A p_1 + (1 − A) p_2.
+///
+/// # Errors
+/// As [`Density::new`]; [`Error::NotConverged`].
+pub fn mixture(sight: &Sight, share: f64, pair: [Technique; 2]) -> Result<Law, Error> {
+    let [one, other] = [Density::new(sight, pair[0])?, Density::new(sight, pair[1])?];
+    let mix = |one: f64, other: f64| share * one + (1.0 - share) * other;
+    let hidden = mix(one.missed().0, other.missed().0);
+    let mut law = Law { parts: Vec::new(), hidden, hidden_error: mix(one.missed().1, other.missed().1) };
+    for (index, seen) in visible(sight) {
         law.parts.push(by_cubature(index, seen, |y| {
-            let rho = seen.g(y) * (area / PI);
-            [PI * value(rho), weight(rho) / area]
+            let p = mix(one.per_area(index, seen, y), other.per_area(index, seen, y));
+            [seen.g(y) / p, p]
         })?);
     }
     Ok(law)
 }
 
-/// 1 − ∫ p_a over what x sees, and a bound of its error.
-pub fn missed_by_area(sight: &Sight) -> (f64, f64) {
-    let area = sight.total_area();
-    let seen: f64 = sight.seen.iter().map(|seen| seen.visible_area).sum();
-    let error: f64 =
-        sight.seen.iter().filter(|seen| seen.blocked || seen.clipped).map(|seen| seen.moments.area_error).sum();
-    let rest = not_below_zero(area - seen);
-    let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64 * area;
-    let whole = sight.seen.iter().all(|seen| !seen.blocked && !seen.clipped) && rest <= rounding;
-    if whole { (0.0, 0.0) } else { (rest / area, (error + rounding) / area) }
-}
-
-/// 1 − ∫ p_h over what x sees, and a bound of its error.
-pub fn missed_by_hemisphere(sight: &Sight) -> (f64, f64) {
-    let (m10, error) = sight
-        .seen
-        .iter()
-        .fold((0.0, 0.0), |(m10, error), seen| (m10 + seen.moments.m10, error + seen.moments.errors[1]));
-    (not_below_zero(1.0 - m10 / PI), error / PI + 4.0 * EPSILON)
-}
-
-/// A probability as a difference: what lies below zero is rounding.
-fn not_below_zero(difference: f64) -> f64 {
-    if difference < 0.0 { 0.0 } else { difference }
-}
-
-/// One sample from A p_h + (1 − A) p_a: w = L π ρ/(1 − A + A ρ).
-///
-/// # Errors
-/// [`Error::NotConverged`].
-pub fn mixture(sight: &Sight, a: f64) -> Result<Law, Error> {
-    let (by_area, by_hemisphere) = (missed_by_area(sight), missed_by_hemisphere(sight));
-    let mix = |area: f64, hemisphere: f64| (1.0 - a) * area + a * hemisphere;
-    let hidden = (mix(by_area.0, by_hemisphere.0), mix(by_area.1, by_hemisphere.1));
-    law(sight, hidden, |rho| rho / mix(1.0, rho), |rho| mix(1.0, rho))
-}
-
-/// The laws of the two samples under the balance heuristic, [area, hemisphere]: both are worth
-/// F/(p_a + p_h) = L π ρ/(1 + ρ).
-///
-/// # Errors
-/// [`Error::NotConverged`].
-pub fn balance(sight: &Sight) -> Result<[Law; 2], Error> {
-    let value = |rho: f64| rho / (1.0 + rho);
-    let area = law(sight, missed_by_area(sight), value, |_| 1.0)?;
-    let hemisphere = law(sight, missed_by_hemisphere(sight), value, |rho| rho)?;
-    Ok([area, hemisphere])
-}
-
-/// The laws of the two samples under the power heuristic, β = 2, [area, hemisphere]: F p_i/(p_a² +
-/// p_h²) = L π ρ {1, ρ}/(1 + ρ²).
-///
-/// # Errors
-/// [`Error::NotConverged`].
-pub fn power(sight: &Sight) -> Result<[Law; 2], Error> {
-    let area = law(sight, missed_by_area(sight), |rho| rho / (1.0 + rho * rho), |_| 1.0)?;
-    let hemisphere = law(sight, missed_by_hemisphere(sight), |rho| rho * rho / (1.0 + rho * rho), |rho| rho)?;
-    Ok([area, hemisphere])
-}
-
-/// The least variance of an unbiased weighting of the pair (Kondapaneni et al. 2019).
-///
-/// With c = p_a + p_h, A_ij = ∫ p_i p_j/c, b_i = ∫ F p_i/c and A α = b, V = ∫ F²/c − αᵀb. That
-/// difference cancels; it equals
-/// V = ∫ (F − α_a p_a − α_h p_h)²/c over everything that is sampled, where no term is negative.
-#[derive(Clone, Debug)]
-pub struct Optimal {
-    /// ρ under p_a/(1 + ρ) = p_a²/c on every facet: mean, spread and mass give ∫ p_a²/c, ∫ p_a
-    /// p_h/c and ∫ p_h²/c.
-    law: Law,
-    area: (f64, f64),
-    hemisphere: (f64, f64),
-}
-
-impl Optimal {
-    /// Integrates ρ over what x sees.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`].
-    pub fn new(sight: &Sight) -> Result<Self, Error> {
-        let law = law(sight, (0.0, 0.0), |rho| rho / PI, |rho| 1.0 / (1.0 + rho))?;
-        Ok(Self { law, area: missed_by_area(sight), hemisphere: missed_by_hemisphere(sight) })
-    }
-
-    /// Variance of the pair's sum and its mean. On the facets F = L π p_h = L π ρ p_a; where a
-    /// light's point is hidden only p_a is not zero, where a direction misses only p_h.
-    pub fn outcome(&self, radiance: impl Fn(usize) -> f64) -> Outcome {
-        let (alpha, mean) = self.alpha(&radiance);
-        let [alpha_a, alpha_h] = alpha;
-        let mut outcome = Outcome {
-            mean,
-            mean_error: 16.0 * EPSILON * mean,
-            variance: alpha_a * alpha_a * self.area.0 + alpha_h * alpha_h * self.hemisphere.0,
-            error: alpha_a * alpha_a * self.area.1 + alpha_h * alpha_h * self.hemisphere.1,
-        };
-        for part in &self.law.parts {
-            outcome.add_residual(part, PI * radiance(part.seen) - alpha_h, alpha_a);
-        }
-        outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
-        outcome
-    }
-
-    /// α, [area, hemisphere], and the mean.
-    pub fn alpha(&self, radiance: impl Fn(usize) -> f64) -> ([f64; 2], f64) {
-        let mut matrix = [self.area.0, 0.0, self.hemisphere.0];
-        let mut b = [0.0; 2];
-        let mut mean = 0.0;
-        for part in &self.law.parts {
-            let l_pi = PI * radiance(part.seen);
-            let (a_h, h_h) = (part.mass * part.mean, part.spread + part.mass * part.mean * part.mean);
-            matrix[0] += part.mass;
-            matrix[1] += a_h;
-            matrix[2] += h_h;
-            b[0] += l_pi * a_h;
-            b[1] += l_pi * h_h;
-            mean += l_pi * (a_h + h_h);
-        }
-        (solve(matrix, b), mean)
-    }
-}
-
-impl Outcome {
-    /// ∫ (k ρ − α_a)² p_a/(1 + ρ) on one facet, k = L π − α_h.
-    fn add_residual(&mut self, part: &Part, k: f64, alpha_a: f64) {
-        let at_mean = k * part.mean - alpha_a;
-        self.variance += at_mean * at_mean * part.mass + k * k * part.spread;
-        self.error += at_mean * at_mean * part.mass_error
-            + 2.0 * (at_mean * k).abs() * part.mass * part.mean_error
-            + k * k * part.spread_error;
-        self.mean_error +=
-            (k.abs() + alpha_a.abs()) * (part.mass * part.mean_error + part.mean * part.mass_error + part.spread_error);
-    }
-}
-
-/// α of least norm error with [[aa, ah], [ah, hh]] α = b; zero when nothing is seen.
-fn solve([aa, ah, hh]: [f64; 3], b: [f64; 2]) -> [f64; 2] {
-    let determinant = aa * hh - ah * ah;
-    if determinant.abs() <= 8.0 * EPSILON * aa * hh {
-        let trace = aa + hh;
-        return if trace > 0.0 { b.map(|b| b / trace) } else { [0.0; 2] };
-    }
-    [(b[0] * hh - b[1] * ah) / determinant, (b[1] * aa - b[0] * ah) / determinant]
+/// The facets of which x sees something.
+pub fn visible(sight: &Sight) -> impl Iterator<Item = (usize, &Seen)> {
+    sight.seen.iter().enumerate().filter(|(_, seen)| seen.is_visible())
 }

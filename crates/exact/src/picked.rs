@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::bilinear::Bilinear;
 use crate::error::Error;
 use crate::law::{Law, Part};
 use crate::seen::Seen;
@@ -19,6 +20,8 @@ pub enum Draw {
     SolidAngle,
     /// Projected solid angle of the targets that face x, clipped to the horizon.
     ProjectedSolidAngle,
+    /// Solid angle of the targets that face x, times a bilinear cosine.
+    BilinearCosine,
 }
 
 /// Spreads by edge sums, or by cubature.
@@ -30,7 +33,7 @@ pub enum Method {
     Cubature,
 }
 
-/// Lights that are drawn on as one: the probability of picking them and their whole measure, hidden
+/// Targets that are drawn on as one: those of all lights, of one, or a single one; the probability of picking them and their whole measure, hidden
 /// parts included.
 struct Group {
     pick: f64,
@@ -39,34 +42,58 @@ struct Group {
     unlisted: f64,
 }
 
-/// The law of one sample: light ℓ with probability q_ℓ, then a point uniform in the draw's measure,
-/// T_ℓ in all: P = q_ℓ (visible)/T_ℓ and w = L u T_ℓ/q_ℓ with u = cosθ_x cosθ_y/r², cosθ_x or 1.
+/// How likely a draw is to land on each facet, per measure, and how likely to land where x sees nothing.
+pub struct Shares {
+    /// Probability per measure on each facet of the sight.
+    pub per_measure: Vec<f64>,
+    /// Probability of a sample worth zero.
+    pub hidden: f64,
+    /// Bound of its error.
+    pub hidden_error: f64,
+}
+
+/// The shares of a draw: light ℓ with probability q_ℓ, then a point uniform in the draw's measure, T_ℓ in all: q_ℓ/T_ℓ.
 ///
 /// # Errors
-/// [`Error::NotConverged`]; [`Error::NeverPicked`] for a light that contributes with q = 0.
-pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
-    let groups = groups(sight, draw, selection);
-    let mut law = Law::default();
+/// [`Error::NeverPicked`] for a light that contributes with q = 0; [`Error::NoTree`].
+pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares, Error> {
+    let groups = groups(sight, draw, selection)?;
+    let mut shares = Shares { per_measure: Vec::with_capacity(sight.seen.len()), hidden: 0.0, hidden_error: 0.0 };
     for group in &groups {
-        law.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
+        shares.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
     for (index, seen) in sight.seen.iter().enumerate() {
         let group = &groups[group_of(seen, selection)];
         if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
             return Err(Error::NeverPicked { light: seen.light });
         }
-        if group.pick <= 0.0 || group.whole <= 0.0 {
-            continue;
+        let share = if group.pick > 0.0 && group.whole > 0.0 { group.pick / group.whole } else { 0.0 };
+        if share > 0.0 {
+            let (hidden, error) = match draw {
+                Draw::BilinearCosine => hidden_of_bilinear(sight, index, seen)?,
+                _ => hidden(seen, draw),
+            };
+            shares.hidden += share * hidden;
+            shares.hidden_error += share * error;
         }
-        let share = group.pick / group.whole;
-        let (hidden, error) = hidden(seen, draw);
-        law.hidden += share * hidden;
-        law.hidden_error += share * error;
-        if seen.is_visible() {
+        shares.per_measure.push(share);
+    }
+    shares.hidden_error += 4.0 * EPSILON * shares.hidden;
+    Ok(shares)
+}
+
+/// The law of one sample: P = share × (visible measure) and w = L u/share with u = cosθ_x cosθ_y/r², cosθ_x or 1.
+///
+/// # Errors
+/// As [`shares`]; [`Error::NotConverged`].
+pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> Result<Law, Error> {
+    let Shares { per_measure, hidden, hidden_error } = shares(sight, draw, selection)?;
+    let mut law = Law { parts: Vec::new(), hidden, hidden_error };
+    for ((index, seen), share) in sight.seen.iter().enumerate().zip(per_measure) {
+        if share > 0.0 && seen.is_visible() {
             law.parts.push(scaled(part(index, seen, draw, method)?, share));
         }
     }
-    law.hidden_error += 4.0 * EPSILON * law.hidden;
     Ok(law)
 }
 
@@ -83,7 +110,18 @@ fn part(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Part, E
             kept.solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::ProjectedSolidAngle, _) => Ok(spread::of_projected_solid_angle(index, seen)),
+        (Draw::BilinearCosine, _) => kept.bilinear.get_or_init(|| by_bilinear_cosine(index, seen)).clone(),
     }
+}
+
+/// cosθ_x/w under w dω.
+fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Part, Error> {
+    let bilinear = Bilinear::new(&seen.corners);
+    let f = |y: DVec3| {
+        let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
+        [cos_x / w, w * d_omega]
+    };
+    if bilinear.is_smooth() { spread::by_cubature(index, seen, f) } else { spread::by_rough_cubature(index, seen, f) }
 }
 
 /// cosθ_x = z/r and dω/dA = s/r³.
@@ -112,7 +150,25 @@ fn whole(seen: &Seen, draw: Draw) -> f64 {
         Draw::Uniform => seen.area,
         Draw::SolidAngle => seen.whole_solid_angle,
         Draw::ProjectedSolidAngle => seen.open.m10,
+        Draw::BilinearCosine => Bilinear::new(&seen.corners).whole() * (seen.facet.area / flat_area(&seen.corners)),
     }
+}
+
+/// The area of a target's triangles.
+fn flat_area(corners: &[DVec3]) -> f64 {
+    let of = |pair: &[DVec3]| 0.5 * (pair[0] - corners[0]).cross(pair[1] - corners[0]).length();
+    corners[1..].windows(2).map(of).sum()
+}
+
+/// What x does not see of a facet's share of its target's measure. Where a target is two facets, their shares are by area, and what
+/// one has too much the other lacks.
+fn hidden_of_bilinear(sight: &Sight, index: usize, seen: &Seen) -> Result<(f64, f64), Error> {
+    if sight.seen.iter().all(|seen| !seen.blocked && !seen.clipped) {
+        return Ok((0.0, 0.0));
+    }
+    let part =
+        if seen.is_visible() { part(index, seen, Draw::BilinearCosine, Method::Cubature)? } else { Part::default() };
+    Ok((whole(seen, Draw::BilinearCosine) - part.mass, part.mass_error))
 }
 
 /// The measure of what x does not see of a facet, and a bound of its error.
@@ -120,48 +176,62 @@ fn hidden(seen: &Seen, draw: Draw) -> (f64, f64) {
     let (open, moments) = (&seen.open, &seen.moments);
     let partial = match draw {
         Draw::ProjectedSolidAngle => seen.blocked,
-        Draw::Uniform | Draw::SolidAngle => seen.blocked || seen.clipped,
+        Draw::Uniform | Draw::SolidAngle | Draw::BilinearCosine => seen.blocked || seen.clipped,
     };
     match draw {
         _ if !partial => (0.0, 0.0),
         Draw::Uniform => (seen.area - seen.visible_area, moments.area_error),
-        Draw::SolidAngle => (seen.whole_solid_angle - moments.solid_angle, open.error + moments.error),
+        Draw::SolidAngle | Draw::BilinearCosine => {
+            (seen.whole_solid_angle - moments.solid_angle, open.error + moments.error)
+        }
         Draw::ProjectedSolidAngle => (open.m10 - moments.m10, open.errors[1] + moments.errors[1]),
     }
 }
 
-fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Vec<Group> {
-    let areas: Vec<f64> = match selection {
-        Selection::Together => vec![sight.total_area()],
-        _ => sight.lights.iter().map(|light| light.area).collect(),
+fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>, Error> {
+    let by_tree = if selection == Selection::Tree { sight.by_tree()? } else { Vec::new() };
+    let count = match selection {
+        Selection::Together => 1,
+        Selection::Tree => by_tree.len(),
+        _ => sight.lights.len(),
     };
     let per_group = |f: &dyn Fn(&Seen) -> f64| {
-        let mut sums = vec![0.0; areas.len()];
+        let mut sums = vec![0.0; count];
         sight.seen.iter().for_each(|seen| sums[group_of(seen, selection)] += f(seen));
         sums
     };
+    let listed = per_group(&|seen| whole(seen, draw));
+    let areas: Vec<f64> = match selection {
+        Selection::Together => vec![sight.total_area()],
+        Selection::Tree => listed.clone(),
+        _ => sight.lights.iter().map(|light| light.area).collect(),
+    };
     let weights: Vec<f64> = match selection {
-        Selection::Together | Selection::Uniform => vec![1.0; areas.len()],
+        Selection::Together | Selection::Uniform => vec![1.0; count],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
         Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+        Selection::Tree if draw == Draw::Uniform => by_tree,
+        Selection::Tree => by_tree.iter().zip(&listed).map(|(&p, &m)| if m > 0.0 { p } else { 0.0 }).collect(),
     };
     let total: f64 = weights.iter().sum();
-    let listed = per_group(&|seen| whole(seen, draw));
     let groups = weights.iter().zip(&listed).zip(&areas);
     let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64;
-    groups
-        .map(|((&weight, &listed), &area)| {
-            let whole = if draw == Draw::Uniform { area } else { listed };
-            let rest = whole - listed;
-            Group {
-                pick: if total > 0.0 { weight / total } else { 0.0 },
-                whole,
-                unlisted: if rest.abs() <= rounding * whole { 0.0 } else { rest },
-            }
-        })
-        .collect()
+    let group = |((&weight, &listed), &area): ((&f64, &f64), &f64)| {
+        let whole = if draw == Draw::Uniform { area } else { listed };
+        let rest = whole - listed;
+        Group {
+            pick: if total > 0.0 { weight / total } else { 0.0 },
+            whole,
+            unlisted: if rest.abs() <= rounding * whole { 0.0 } else { rest },
+        }
+    };
+    Ok(groups.map(group).collect())
 }
 
 fn group_of(seen: &Seen, selection: Selection) -> usize {
-    if selection == Selection::Together { 0 } else { seen.light }
+    match selection {
+        Selection::Together => 0,
+        Selection::Tree => seen.target,
+        _ => seen.light,
+    }
 }

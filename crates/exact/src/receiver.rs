@@ -18,7 +18,8 @@ use crate::sight::Sight;
 /// # Errors
 /// Where there is no exact answer; see [`Error`].
 pub fn look(geometry: &Geometry, lights: &Lights, frame: &Frame, f_r: [f64; 3]) -> Result<Sight, Error> {
-    let mut seen = Gathering { sight: Sight::dark(&all(lights, 1.0))?, error: None, lights, f_r, growth: 1.0 };
+    let sight = Sight { tree: Some((lights.tree().clone(), *frame)), ..Sight::dark(&all(lights, 1.0))? };
+    let mut seen = Gathering { sight, error: None, lights, f_r, growth: 1.0 };
     prospects(geometry, frame, |prospect| seen.add(prospect));
     seen.finish()
 }

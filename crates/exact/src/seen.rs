@@ -22,6 +22,8 @@ const TOO_ROUGH: f64 = 1e-11;
 /// A facet that emits toward x.
 #[derive(Clone, Debug)]
 pub struct Seen {
+    /// The target it belongs to.
+    pub target: usize,
     /// The light it belongs to.
     pub light: usize,
     /// L_e toward x, linear RGB.
@@ -46,6 +48,8 @@ pub struct Seen {
     pub clipped: bool,
     /// The plane and outline.
     pub facet: Facet,
+    /// The corners of the target, in its own order.
+    pub corners: Vec<DVec3>,
     /// Spreads by cubature, kept because every selection of lights asks for the same ones.
     pub(crate) cubatures: Cubatures,
 }
@@ -57,6 +61,8 @@ pub(crate) struct Cubatures {
     pub area: OnceLock<Result<Part, Error>>,
     /// Of cosθ_x under dω.
     pub solid_angle: OnceLock<Result<Part, Error>>,
+    /// Of cosθ_x over the bilinear cosine, under that times dω.
+    pub bilinear: OnceLock<Result<Part, Error>>,
 }
 
 impl Seen {
@@ -79,6 +85,7 @@ impl Seen {
         let whole_solid_angle = if clipped { solid_angle_of(&facet.corners) } else { open.solid_angle };
         let visible_area = if blocked || clipped { area * (moments.area / facet.area) } else { area };
         Ok(Self {
+            target: facing.target as usize,
             light: facing.light as usize,
             radiance: facing.radiance,
             luminance: luminance(facing.radiance),
@@ -91,6 +98,7 @@ impl Seen {
             blocked,
             clipped,
             facet,
+            corners: facing.corners.clone(),
             cubatures: Cubatures::default(),
         })
     }

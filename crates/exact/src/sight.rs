@@ -1,5 +1,10 @@
 //! All that x sees of the lights, and its irradiance.
 
+use std::sync::Arc;
+
+use twoforms_estimator::tree::{Tree, Walk};
+use twoforms_geometry::frame::Frame;
+
 use crate::error::Error;
 use crate::facing::{Facing, Light};
 use crate::moments::Moments;
@@ -14,6 +19,8 @@ pub struct Sight {
     pub seen: Vec<Seen>,
     /// All lights of the scene.
     pub lights: Vec<Light>,
+    /// The tree over the targets, and where x stands before it; none where the lights were moved.
+    pub tree: Option<(Arc<Tree>, Frame)>,
 }
 
 impl Sight {
@@ -37,7 +44,7 @@ impl Sight {
         let sound = |value: f64| value.is_finite() && value >= 0.0;
         match lights.iter().position(|light| !sound(light.area) || !sound(light.power)) {
             Some(light) => Err(Error::BadLight { light }),
-            None => Ok(Self { seen: Vec::new(), lights: lights.to_vec() }),
+            None => Ok(Self { seen: Vec::new(), lights: lights.to_vec(), tree: None }),
         }
     }
 
@@ -65,6 +72,15 @@ impl Sight {
             self.seen.append(&mut seen);
         }
         Ok(hidden)
+    }
+
+    /// The probability of each target of the scene by the tree.
+    ///
+    /// # Errors
+    /// [`Error::NoTree`].
+    pub(crate) fn by_tree(&self) -> Result<Vec<f64>, Error> {
+        let (tree, frame) = self.tree.as_ref().ok_or(Error::NoTree)?;
+        Ok(Walk::new(tree, frame).probabilities())
     }
 
     /// Area of all lights in m², each triangle once.

@@ -18,6 +18,28 @@ use crate::value::EPSILON;
 /// # Errors
 /// [`Error::NotConverged`].
 pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+    within(index, seen, FINE, f)
+}
+
+/// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
+/// the bounds say how small.
+///
+/// # Errors
+/// [`Error::NotConverged`].
+pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+    within(index, seen, ROUGH, f)
+}
+
+/// Relative errors of the mass, and of mean and spread.
+const FINE: [f64; 2] = [1e-11, 1e-9];
+const ROUGH: [f64; 2] = [1e-3, 1e-3];
+
+fn within(
+    index: usize,
+    seen: &Seen,
+    [of_mass, of_spread]: [f64; 2],
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
@@ -34,9 +56,9 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
         let size = centre.abs() * mass;
         [
-            relative(1e-11) * mass,
-            relative(1e-9) * (second * mass).sqrt() + 1e-15 * size,
-            relative(1e-9) * second + 1e-18 * centre.abs() * size,
+            relative(of_mass) * mass,
+            relative(of_spread) * (second * mass).sqrt() + 1e-15 * size,
+            relative(of_spread) * second + 1e-18 * centre.abs() * size,
         ]
     };
     let sum = integrate(&seen.pieces, about_centre, tolerance)?;

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use crate::error::Error;
 use crate::law::{Colours, Law, Outcome};
-use crate::mis::{self, Optimal};
+use crate::mis::{self, Members};
 use crate::moments::Moments;
+use crate::optimal::Optimal;
 use crate::picked::{self, Draw, Method};
 use crate::seen::Seen;
 use crate::sight::Sight;
@@ -23,17 +24,18 @@ const LUMINANCE: usize = 3;
 /// Whether the variance of a strategy is known here: by a closed form or by cubature.
 pub fn has_formula(strategy: Strategy) -> bool {
     match strategy {
-        Strategy::Single(technique) => technique.kind != Kind::HemisphereTowardLightsMarginal,
-        Strategy::Mixture(share, [one, other]) => match share {
-            1.0 => has_formula(one.into()),
-            0.0 => has_formula(other.into()),
-            _ => [one, other] == Strategy::PAIR,
-        },
-        Strategy::Mis(weighting, team) => {
-            team == Team::default() && !matches!(weighting, Weighting::Cutoff | Weighting::Maximum)
+        Strategy::Mixture(1.0, [technique, _]) | Strategy::Mixture(0.0, [_, technique]) => is_known(technique),
+        Strategy::Mis(Weighting::Pilot(_), _) | Strategy::Resampled(_) | Strategy::Ratio => false,
+        Strategy::Single(_) | Strategy::Mis(..) | Strategy::Mixture(..) => {
+            strategy.techniques().into_iter().all(is_known)
         }
-        Strategy::Resampled(_) | Strategy::Ratio | Strategy::ControlVariate => false,
+        Strategy::ControlVariate => true,
     }
+}
+
+/// Whether the density of a technique is a formula on each facet.
+fn is_known(technique: Technique) -> bool {
+    technique.kind != Kind::HemisphereTowardLightsMarginal
 }
 
 /// All strategies whose variance is known here; combinations by some of their many names.
@@ -53,14 +55,15 @@ impl Sight {
             Strategy::Mixture(0.0, [_, technique]) | Strategy::Mixture(1.0, [technique, _]) => {
                 self.of_technique(technique)
             }
-            Strategy::Mixture(a, pair) if pair == Strategy::PAIR => self.sum_of_laws(&[mis::mixture(self, a)?]),
-            Strategy::Mis(weighting, team) if team == Team::default() => match weighting {
-                Weighting::Balance => self.sum_of_laws(&mis::balance(self)?),
-                Weighting::Power => self.sum_of_laws(&mis::power(self)?),
-                Weighting::Optimal => self.optimal(),
-                Weighting::Cutoff | Weighting::Maximum => Err(Error::NoFormula),
-            },
-            _ => Err(Error::NoFormula),
+            Strategy::Mixture(share, pair) => self.sum_of_laws(&[(mis::mixture(self, share, pair)?, 1.0)]),
+            Strategy::Mis(Weighting::Optimal, team) => self.optimal(team),
+            Strategy::Mis(weighting, team) => {
+                let members = Members::new(self, team)?;
+                let laws = members.laws(self, weighting)?.into_iter().enumerate();
+                self.sum_of_laws(&laws.map(|(k, law)| (law, members.samples(k))).collect::<Vec<_>>())
+            }
+            Strategy::ControlVariate => Ok(self.control_variate()),
+            Strategy::Resampled(_) | Strategy::Ratio => Err(Error::NoFormula),
         }
     }
 
@@ -71,6 +74,7 @@ impl Sight {
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
+            Kind::AreaBilinearCosine => self.over_lights(Draw::BilinearCosine, selection),
             Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
         }
     }
@@ -113,37 +117,56 @@ impl Sight {
         Ok(if by_cubature.error_bound < by_edges.error_bound { by_cubature } else { by_edges })
     }
 
-    /// Independent samples are added, so their variances add up.
-    fn sum_of_laws(&self, laws: &[Law]) -> Result<Value, Error> {
+    /// So many independent samples of each law are added, so their variances add up.
+    fn sum_of_laws(&self, laws: &[(Law, f64)]) -> Result<Value, Error> {
         let colours = self.colours();
         let sum = |channel: usize| {
-            let outcomes = laws.iter().map(|law| law.outcome(|seen| colours.0[seen][channel]));
-            outcomes.fold(Outcome::default(), |sum, o| Outcome {
-                mean: sum.mean + o.mean,
-                mean_error: sum.mean_error + o.mean_error,
-                variance: sum.variance + o.variance,
-                error: sum.error + o.error,
+            let outcomes = laws.iter().map(|(law, n)| (law.outcome(|seen| colours.0[seen][channel]), n));
+            outcomes.fold(Outcome::default(), |sum, (o, n)| Outcome {
+                mean: sum.mean + n * o.mean,
+                mean_error: sum.mean_error + n * o.mean_error,
+                variance: sum.variance + n * o.variance,
+                error: sum.error + n * o.error,
             })
         };
         self.consistent(sum(LUMINANCE))?;
         Ok(Value::of_outcomes(sum))
     }
 
-    /// α of `area/uniform` and `hemisphere/cosine` with the weights of least variance, RGB.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`].
-    pub fn optimal_alpha(&self) -> Result<[[f64; 3]; 2], Error> {
-        let (colours, optimal) = (self.colours(), Optimal::new(self)?);
-        let channels = [0, 1, 2].map(|channel| optimal.alpha(|seen| colours.0[seen][channel]).0);
-        Ok([0, 1].map(|technique| channels.map(|alpha| alpha[technique])))
+    /// w = U − h with h the hidden part of the sample: V = E\[h²\] − E\[h\]², and E\[h²\] = A Σ L² (M_23 unhidden − M_23)/s².
+    fn control_variate(&self) -> Value {
+        let (colours, area) = (self.colours(), self.total_area());
+        let hidden = || self.seen.iter().zip(&colours.0).filter(|(seen, _)| seen.blocked);
+        Value::of_outcomes(|channel| {
+            let (mut first, mut first_error, mut second, mut error) = (0.0, 0.0, 0.0, 0.0);
+            for (Seen { open, moments, facet, .. }, colour) in hidden() {
+                let radiance = colour[channel];
+                let square = area * radiance * radiance / (facet.s * facet.s);
+                first += radiance * (open.m10 - moments.m10);
+                first_error += radiance * (open.errors[1] + moments.errors[1]);
+                second += square * (open.m23 - moments.m23);
+                let plane = 16.0 * EPSILON * facet.reach / facet.s * (open.m23.abs() + moments.m23.abs());
+                error += square * (open.error + moments.error + plane);
+            }
+            let variance = second - first * first;
+            let error = error + 2.0 * first * first_error + 16.0 * EPSILON * second.abs();
+            Outcome { mean: first, mean_error: first_error, variance, error }
+        })
     }
 
-    fn optimal(&self) -> Result<Value, Error> {
-        let (colours, optimal) = (self.colours(), Optimal::new(self)?);
-        let outcome = |channel: usize| optimal.outcome(|seen| colours.0[seen][channel]);
-        self.consistent(outcome(LUMINANCE))?;
-        Ok(Value::of_outcomes(outcome))
+    /// α of a team's techniques with the weights of least variance, RGB.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`]; [`Error::NoFormula`] where a density of the team is not known.
+    pub fn optimal_alpha(&self, team: Team) -> Result<Vec<[f64; 3]>, Error> {
+        let alpha = Optimal::new(self, Members::new(self, team)?)?.alpha(&self.colours());
+        Ok((0..team.members().count()).map(|k| [0, 1, 2].map(|channel| alpha[channel][k])).collect())
+    }
+
+    fn optimal(&self, team: Team) -> Result<Value, Error> {
+        let outcomes = Optimal::new(self, Members::new(self, team)?)?.outcomes(&self.colours())?;
+        self.consistent(outcomes[LUMINANCE])?;
+        Ok(Value::of_outcomes(|channel| outcomes[channel]))
     }
 
     /// Refuses a variance whose own mean is not the irradiance.

@@ -62,7 +62,7 @@ fn bench(group: &mut Group, name: &str, case: &Case, strategy: Strategy, instruc
     let world = &case.stage.world;
     let view = View::new(&world.geometry, case.place.frame(), Effort::Gather);
     let query = Query::irradiance(&world.lights);
-    let known = twoforms_tests::samples::known(case);
+    let known = twoforms_tests::samples::known(case, strategy);
     let prepared = strategy.prepare(&world.lights);
     let estimator = prepared.at(&view, &query, &known);
     group.bench_function(name, |bencher| bencher.iter(|| estimate(&*estimator, instructions)));

@@ -1,8 +1,8 @@
 //! The targets of all lights, as points or as the directions toward them.
 
 use glam::DVec3;
+use twoforms_estimator::density::Picking;
 use twoforms_estimator::measure::{Aim, SolidAngle, SurfaceArea};
-use twoforms_estimator::selection::Picker;
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::View;
 
@@ -18,20 +18,20 @@ const FINE: usize = 8;
 #[derive(Clone, Debug)]
 pub struct LightCells<'p> {
     charts: Vec<Chart>,
-    picker: &'p Picker,
+    picker: &'p Picking<'p>,
     resolution: f64,
 }
 
 impl<'p> LightCells<'p> {
     /// The targets as `view` meets them, picked by `picker`.
-    pub fn new(view: &View, picker: &'p Picker) -> Self {
+    pub fn new(view: &View, picker: &'p Picking<'p>) -> Self {
         let targets = 0..view.geometry().targets().len() as u32;
         Self { charts: targets.map(|k| Chart::new(view, k)).collect(), picker, resolution: 1e-6 }
     }
 
     /// The same for a density that varies over a target, and ends where it meets the horizon: what patches that are wide as x
     /// sees them, or cut by the horizon, may add.
-    pub fn varying(view: &View, picker: &'p Picker) -> Self {
+    pub fn varying(view: &View, picker: &'p Picking<'p>) -> Self {
         Self { resolution: 5e-3, ..Self::new(view, picker) }
     }
 
@@ -141,7 +141,7 @@ const BESIDE: f64 = 1e-6;
 
 impl<'p> LitDirections<'p> {
     /// The targets as `view` meets them, picked by `picker`.
-    pub fn new(view: &View, picker: &'p Picker) -> Self {
+    pub fn new(view: &View, picker: &'p Picking<'p>) -> Self {
         Self(LightCells::new(view, picker))
     }
 

@@ -19,6 +19,8 @@ pub(crate) struct Mis<'a> {
     pub(crate) query: &'a Query<'a>,
     /// Techniques with n_i, the samples of each.
     pub(crate) team: Vec<(Local<'a>, u32)>,
+    /// Σ n_i: pairs of random numbers that a sample of the team takes.
+    pub(crate) pairs: usize,
     pub(crate) weighting: Weighting,
     /// α_i of each technique, RGB, where the weights are optimal.
     pub(crate) alpha: Vec<[f32; 3]>,
@@ -30,7 +32,7 @@ impl Primary for Mis<'_> {
     }
 
     fn pairs(&self) -> usize {
-        self.team.iter().map(|(_, n)| *n as usize).sum()
+        self.pairs
     }
 
     #[inline(always)]
@@ -67,17 +69,24 @@ impl Mis<'_> {
         if !found.seen.any() {
             return missed;
         }
+        let q = self.expected(from, i, found);
+        let f = self.query.received(&found.y, &found.xy);
+        let value = match self.weighting {
+            Weighting::Optimal | Weighting::Pilot(_) => self.residual(f, &q),
+            weighting => f * weighting.over(&q[..self.team.len()], i),
+        };
+        value.or_black(found.seen) + missed
+    }
+
+    /// q_k = n_k p_k where a sample of technique i met light; zeros after the last.
+    #[inline(always)]
+    pub(super) fn expected<R: Real>(&self, from: &Vantage<R>, i: usize, found: &Found<R>) -> [R; MOST] {
         let mut q = [R::zero(); MOST];
         for (k, (technique, n)) in self.team.iter().enumerate() {
             let pdf = if k == i { found.pdf } else { technique.pdf_of(&from.only(found.seen), &found.y, &found.xy) };
             q[k] = pdf * R::splat(*n as f32);
         }
-        let f = self.query.received(&found.y, &found.xy);
-        let value = match self.weighting {
-            Weighting::Optimal => self.residual(f, &q),
-            weighting => f * weighting.over(&q[..self.team.len()], i),
-        };
-        value.or_black(found.seen) + missed
+        q
     }
 
     /// With optimal weights: (f − Σ α_k p_k) / Σ n_k p_k (Kondapaneni et al. 2019, "Optimal multiple importance sampling",

@@ -21,6 +21,8 @@ pub(crate) struct Resampled<'a> {
     pub(crate) query: &'a Query<'a>,
     pub(crate) density: OnLights<'a, ByArea>,
     pub(crate) candidates: u32,
+    /// Pairs of random numbers: one a candidate, and one that decides.
+    pub(crate) pairs: usize,
 }
 
 /// The candidate kept so far.
@@ -62,7 +64,7 @@ impl Primary for Resampled<'_> {
     }
 
     fn pairs(&self) -> usize {
-        self.candidates as usize + 1
+        self.pairs
     }
 
     #[inline(always)]

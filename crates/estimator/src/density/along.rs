@@ -48,6 +48,13 @@ pub(crate) fn point<R: Real>(row: &[R; ROW], along: Vector<R>, target: R::Word) 
     point_along(&[mx, my, mz, depth, least], along, psi, target)
 }
 
+/// A vector in the frame of x, along the axes.
+#[inline(always)]
+pub(crate) fn along<R: Real>(row: &[R; ROW], v: Vector<R>) -> Vector<R> {
+    let [xx, xy, xz, yx, yy, yz, zx, zy, zz, ..] = *row;
+    Vector::new(Vector::new(xx, xy, xz).dot(v), Vector::new(yx, yy, yz).dot(v), Vector::new(zx, zy, zz).dot(v))
+}
+
 /// The point y of the plane along Ψ, given along the axes and in the frame of x: r = s / (m·Ψ).
 #[inline(always)]
 pub(crate) fn point_along<R: Real>(

@@ -1,21 +1,28 @@
 //! Densities: what points are drawn from, and how. A density knows its measure and nothing of the integrand.
 
 mod along;
+mod arc_tangent;
+mod bilinear_cosine;
 mod hemisphere;
 mod lights;
 mod one_target;
+mod pieces;
 mod projected_solid_angle;
 mod sector;
 mod solid_angle;
+mod spherical_rectangle;
 mod spherical_triangle;
 mod toward;
 
+pub use bilinear_cosine::{BilinearCosineOnLights, ByBilinearCosine, corner_cosines};
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
-pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use lights::{AreaOnLights, ByArea, OnLights, Picking, Spread};
 pub use one_target::OnOneTarget;
+pub use pieces::{Piece, Pieces, PiecesOfTargets, each_piece};
 pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLights};
 pub use sector::{Sector, sectors};
-pub use solid_angle::{BySolidAngle, SolidAngleOnLights, spherical_triangles};
+pub use solid_angle::{BySolidAngle, SolidAngleOnLights};
+pub use spherical_rectangle::SphericalRectangle;
 pub use spherical_triangle::SphericalTriangle;
 pub use toward::{TowardLights, TowardLightsMarginal, TowardLightsMarginally, TowardPreparedLights};
 

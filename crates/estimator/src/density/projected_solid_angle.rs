@@ -9,7 +9,7 @@ use twoforms_geometry::view::{Vantage, View};
 
 use super::Ready;
 use super::along::{self, Axes};
-use super::lights::{OnLights, Spread};
+use super::lights::{OnLights, Picking, Spread};
 use super::sector::{self, sectors};
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
@@ -100,7 +100,7 @@ impl Ready for ProjectedSolidAngleOnLights {
     fn at<'a>(&'a self, view: &View, query: &Query) -> OnLights<'a, ByProjectedSolidAngle> {
         let (spread, pieces) = ByProjectedSolidAngle::new(view);
         let lights = query.lights();
-        let picker = Picker::over(self.0, lights, &pieces, || lights.contributions(view));
-        OnLights { picker: Cow::Owned(picker), spread }
+        let picker = Picker::over(self.0, lights, &pieces, || self.0.at_x(lights, view));
+        OnLights { picking: Picking::Listed(Cow::Owned(picker)), spread }
     }
 }

@@ -17,6 +17,7 @@ use twoforms_geometry::solid_angle::solid_angle;
 use twoforms_geometry::vector::Vector;
 
 use super::along::Axes;
+use super::arc_tangent::arc_tangent;
 
 /// Numbers that a draw needs.
 pub(crate) const ROW: usize = 8;
@@ -159,4 +160,27 @@ pub(crate) fn direction<R: Real>(row: &[R; ROW], [u, v]: [R; 2]) -> Vector<R> {
     let rho = (v * (two - v * h) / (two - h)).sqrt();
     let along_b = one + h * (rho - v);
     Vector::new(b_x * along_b + d.x * rho, b_y * along_b + d.y * rho, (one - b_depth) * along_b + d.z * rho)
+}
+
+/// The two uniform numbers that pick Ψ, which is given along ξ, η and ζ; outside the triangle one of them is not within 0 and 1. At
+/// B every u picks the same, and anything may be said.
+#[inline(always)]
+pub(crate) fn numbers<R: Real>(row: &[R; ROW], psi: Vector<R>) -> [R; 2] {
+    let [turns, tan_sin, tan_cos, sin_half, cos_half, b_x, b_y, b_depth] = *row;
+    let one = R::one();
+    let b_z = one - b_depth;
+    // C′: where the arc from B through Ψ meets η = 0
+    let (x, z) = (b_y * psi.x - psi.y * b_x, b_y * psi.z - psi.y * b_z);
+    let per = one / (x * x + z * z).sqrt();
+    let per = R::select(z.lt(R::zero()), -per, per);
+    let (c_x, c_z) = (x * per, z * per);
+    // tan(AC′/2) = sin AC′ / (1 + cos AC′) = sin β / (tan(AB/2) sin(α − β))
+    let (sin, cos) = (c_x * cos_half + c_z * sin_half, c_z * cos_half - c_x * sin_half);
+    let tan = sin / (one + cos);
+    let beta = arc_tangent(tan * tan_sin, one + tan * tan_cos);
+    let to = Vector::new(psi.x - b_x, psi.y - b_y, psi.z - b_z);
+    let end = Vector::new(c_x - b_x, -b_y, c_z - b_z);
+    let v = to.dot(to) / end.dot(end);
+    let behind = to.dot(end).lt(R::zero());
+    [beta / (turns * R::splat(std::f32::consts::TAU)), R::select(behind, -v, v)]
 }

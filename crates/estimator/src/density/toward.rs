@@ -85,7 +85,7 @@ impl TowardLightsMarginal<'_> {
                 let d_omega = xy.d_omega_d_area();
                 let d_omega = R::select(d_omega.lt(R::zero()), -d_omega, d_omega);
                 let met = met & R::zero().lt(d_omega);
-                sum = sum + R::select(met, self.lights.picker.density::<R>(target) / d_omega, R::zero());
+                sum = sum + R::select(met, self.lights.picking.density::<R>(target) / d_omega, R::zero());
             }
         }
         sum

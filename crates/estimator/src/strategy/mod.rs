@@ -88,7 +88,7 @@ impl Strategy {
 
     /// Whether what a sample is worth can be negative.
     pub fn can_be_negative(self) -> bool {
-        matches!(self, Self::ControlVariate | Self::Mis(Weighting::Optimal, _))
+        matches!(self, Self::ControlVariate | Self::Mis(Weighting::Optimal | Weighting::Pilot(_), _))
     }
 }
 

@@ -19,7 +19,7 @@ impl fmt::Display for Strategy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Single(technique) => technique.fmt(f),
-            Self::Mis(weighting, team) => write!(f, "{MIS}{}{team}", weighting.name()),
+            Self::Mis(weighting, team) => write!(f, "{MIS}{weighting}{team}"),
             Self::Mixture(share, pair) if *pair == Self::PAIR => write!(f, "{MIXTURE}{share}"),
             Self::Mixture(share, [one, other]) => write!(f, "{MIXTURE}{share}({one},{other})"),
             Self::Resampled(candidates) => write!(f, "{RESAMPLED}{candidates}"),
@@ -50,8 +50,7 @@ impl FromStr for Strategy {
 fn read(name: &str) -> Result<Strategy, String> {
     let (head, inside) = brackets(name)?;
     if let Some(weighting) = head.strip_prefix(MIS) {
-        let known = Weighting::ALL.into_iter().find(|known| known.name() == weighting);
-        let weighting = known.ok_or_else(|| unknown(name))?;
+        let weighting = Weighting::of_name(weighting).map_err(|why| why.unwrap_or_else(|| unknown(name)))?;
         let team = inside.map_or_else(|| Ok(Team::default()), |inside| Team::new(&members(inside)?))?;
         return Ok(Strategy::Mis(weighting, team));
     }
@@ -127,6 +126,8 @@ mod tests {
             "mis/balance(area/uniform:2,hemisphere/cosine)",
             "mis/power(area/uniform@uniform,hemisphere/cosine:3,hemisphere/uniform)",
             "ris/32",
+            "mis/optimal-pilot/256",
+            "mis/optimal-pilot/16(area/solid-angle,hemisphere/cosine:2)",
         ];
         let names = Strategy::all().into_iter().map(|strategy| strategy.to_string());
         for name in names.chain(more.map(str::to_owned)) {
@@ -151,6 +152,7 @@ mod tests {
             ("mis/balance(area/uniform:0,hemisphere/cosine)", "samples"),
             ("mis/balance(area/uniform,hemisphere/cosine", "not closed"),
             ("ris/0", "candidates"),
+            ("mis/optimal-pilot/0", "pilot samples"),
             ("area/uniform(hemisphere/cosine)", "brackets"),
         ] {
             let error = name.parse::<Strategy>().map_err(|unknown| unknown.to_string());

@@ -1,12 +1,13 @@
 //! Strategies with what they need of a scene, and of one x.
 
-use super::{AREA, Strategy, Team, Weighting};
+use super::{AREA, MOST, Strategy, Team, Weighting};
 use crate::combination::{ControlVariate, Mis, Mixture, Ratio, Resampled, Shadow, Split};
 use crate::density::{AreaOnLights, ByArea, OnLights, Ready};
 use crate::estimator::Estimator;
 use crate::lights::Lights;
 use crate::query::Query;
 use crate::technique::{Prepared as PreparedTechnique, Technique};
+use crate::xi::Key;
 use twoforms_geometry::view::View;
 
 /// A strategy with what it needs of one scene.
@@ -18,10 +19,26 @@ pub struct Prepared {
 }
 
 /// What is known of the light at x beforehand, for strategies that use it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Known {
-    /// α_i of the techniques of the default team with optimal weights, RGB.
-    pub alpha: Option<[[f64; 3]; 2]>,
+    /// α_i of the techniques of teams with optimal weights, RGB.
+    pub alpha: Vec<(Team, Vec<[f64; 3]>)>,
+    /// The key of pilot samples.
+    pub key: Key,
+}
+
+/// Nothing is known.
+impl Default for Known {
+    fn default() -> Self {
+        Self { alpha: Vec::new(), key: Key::new([]) }
+    }
+}
+
+impl Known {
+    /// α_i of a team, RGB, if they are known.
+    pub fn alpha(&self, team: Team) -> Option<&[[f64; 3]]> {
+        self.alpha.iter().find(|(known, _)| *known == team).map(|(_, alpha)| &alpha[..])
+    }
 }
 
 impl Strategy {
@@ -31,25 +48,20 @@ impl Strategy {
         Prepared { strategy: self, techniques, points: AreaOnLights::prepare(lights, AREA.selection) }
     }
 
-    /// Whether it uses the α that are known beforehand: [`Known::alpha`].
-    pub fn needs_alpha(self) -> bool {
-        matches!(self, Self::Mis(Weighting::Optimal, _))
-    }
-
-    /// Why the strategy can't be sampled at all, if it can't.
-    pub fn impossible(self) -> Option<String> {
+    /// The team whose α must be known beforehand, if one must: see [`Known::alpha`].
+    pub fn needs_alpha(self) -> Option<Team> {
         match self {
-            Self::Mis(Weighting::Optimal, team) if team != Team::default() => Some(format!(
-                "\"{self}\" needs the α of its team, which are known for {AREA} with hemisphere/cosine alone"
-            )),
+            Self::Mis(Weighting::Optimal, team) => Some(team),
             _ => None,
         }
     }
 
     /// Why the strategy can't be sampled in an image, if it can't.
     pub fn impossible_in_images(self) -> Option<String> {
-        let needs = || format!("\"{self}\" needs the α of each point, which an image does not know: take mis/balance");
-        self.impossible().or_else(|| self.needs_alpha().then(needs))
+        let needs = |_| {
+            format!("\"{self}\" needs the α of each point, which an image does not know: take mis/optimal-pilot/64")
+        };
+        self.needs_alpha().map(needs)
     }
 
     /// Pairs of random numbers that a sample takes.
@@ -80,31 +92,36 @@ impl Prepared {
 
     /// Whether each x needs an estimator of its own, so that a view of many x has none.
     pub fn depends_on_x(&self) -> bool {
-        let by_itself =
-            matches!(self.strategy, Strategy::Ratio | Strategy::ControlVariate) || self.strategy.needs_alpha();
+        let by_itself = match self.strategy {
+            Strategy::Ratio | Strategy::ControlVariate => true,
+            Strategy::Mis(weighting, _) => matches!(weighting, Weighting::Optimal | Weighting::Pilot(_)),
+            _ => false,
+        };
         by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
     }
 
-    /// The strategy's estimator at x.
-    ///
-    /// # Panics
-    /// When the strategy needs α and `known` has none.
+    /// The strategy's estimator at x. An α that should be known and is not is zero, which leaves the weights of the balance
+    /// heuristic.
     pub fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Box<dyn Estimator + 'a> {
         let at = |k: usize| self.techniques[k].at(view, query);
+        let pairs = self.strategy.pairs();
         match self.strategy {
             Strategy::Single(_) => self.techniques[0].boxed(view, query),
             Strategy::Mis(weighting, team) => {
-                let team = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
-                let alpha = known.alpha.iter().flatten().map(|alpha| alpha.map(|alpha| alpha as f32));
-                let alpha = if weighting == Weighting::Optimal { alpha.collect() } else { Vec::new() };
-                assert!(weighting != Weighting::Optimal || !alpha.is_empty(), "optimal weights without α");
-                Box::new(Mis { view, query, team, weighting, alpha })
+                let locals = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
+                let mis = Mis { view, query, team: locals, pairs, weighting, alpha: Vec::new() };
+                let alpha = match weighting {
+                    Weighting::Optimal => known.alpha(team).map_or_else(|| vec![[0.0; 3]; MOST], rounded),
+                    Weighting::Pilot(samples) => mis.pilot(view, samples, known.key),
+                    _ => Vec::new(),
+                };
+                Box::new(Mis { alpha, ..mis })
             }
             Strategy::Mixture(share, _) => {
                 Box::new(Mixture { view, query, pair: [at(0), at(1)], split: Split::new(share) })
             }
             Strategy::Resampled(candidates) => {
-                Box::new(Resampled { view, query, density: self.points(view, query), candidates })
+                Box::new(Resampled { view, query, density: self.points(view, query), candidates, pairs })
             }
             Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query) }),
             Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query) }),
@@ -118,4 +135,8 @@ impl Prepared {
     fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {
         Shadow { view, query, density: self.points(view, query), unoccluded: query.unoccluded(view) }
     }
+}
+
+fn rounded(alpha: &[[f64; 3]]) -> Vec<[f32; 3]> {
+    alpha.iter().map(|alpha| alpha.map(|alpha| alpha as f32)).collect()
 }

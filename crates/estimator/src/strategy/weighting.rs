@@ -1,5 +1,7 @@
 //! How samples of several techniques are weighted (Veach 1997, chapter 9; optimal: Kondapaneni et al. 2019).
 
+use std::fmt;
+
 use twoforms_geometry::real::{Mask, Real};
 
 /// A heuristic: the weights w_i of a sample from q_k = n_k p_k, which add up to one.
@@ -15,31 +17,41 @@ pub enum Weighting {
     Maximum,
     /// The weights of least variance, with the known α.
     Optimal,
+    /// The same with α from so many samples of the team beforehand.
+    Pilot(u32),
 }
+
+/// What the name of pilot samples begins with.
+const PILOT: &str = "optimal-pilot/";
+/// Most pilot samples.
+const MOST_PILOTS: u32 = 65_536;
 
 /// Densities below this share of the largest are cut off.
 const CUT: f32 = 0.1;
 
 impl Weighting {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Balance, Self::Power, Self::Cutoff, Self::Maximum, Self::Optimal];
+    /// All of them; pilot samples by one of their many numbers.
+    pub const ALL: [Self; 6] =
+        [Self::Balance, Self::Power, Self::Cutoff, Self::Maximum, Self::Optimal, Self::Pilot(64)];
 
-    /// Its name: the word after `mis/`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Balance => "balance",
-            Self::Power => "power",
-            Self::Cutoff => "cutoff",
-            Self::Maximum => "maximum",
-            Self::Optimal => "optimal",
+    /// The heuristic of a name: the word after `mis/`.
+    ///
+    /// # Errors
+    /// Why there is none, where the name is of pilot samples; else nothing.
+    pub(super) fn of_name(name: &str) -> Result<Self, Option<String>> {
+        if let Some(samples) = name.strip_prefix(PILOT) {
+            let samples = samples.parse().ok().filter(|samples| (1..=MOST_PILOTS).contains(samples));
+            let wanted = || Some(format!("{PILOT}K needs a number K of pilot samples from 1 to {MOST_PILOTS}"));
+            return samples.map(Self::Pilot).ok_or_else(wanted);
         }
+        Self::ALL.into_iter().find(|known| known.to_string() == name).ok_or(None)
     }
 
     /// w_i / q_i, where q_i > 0. Optimal weights are the balance heuristic's but for what α adds.
     #[inline(always)]
     pub(crate) fn over<R: Real>(self, q: &[R], i: usize) -> R {
         match self {
-            Self::Balance | Self::Optimal => R::one() / sum_from(q, R::zero()),
+            Self::Balance | Self::Optimal | Self::Pilot(_) => R::one() / sum_from(q, R::zero()),
             Self::Power => {
                 let mut squares = R::zero();
                 for &q_k in q {
@@ -59,6 +71,20 @@ impl Weighting {
                 }
                 R::select(first, R::one() / q[i], R::zero())
             }
+        }
+    }
+}
+
+/// Its name: the word after `mis/`.
+impl fmt::Display for Weighting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Balance => f.write_str("balance"),
+            Self::Power => f.write_str("power"),
+            Self::Cutoff => f.write_str("cutoff"),
+            Self::Maximum => f.write_str("maximum"),
+            Self::Optimal => f.write_str("optimal"),
+            Self::Pilot(samples) => write!(f, "{PILOT}{samples}"),
         }
     }
 }

@@ -1,0 +1,63 @@
+//! The bilinear cosine over the pieces of a target, in binary64.
+
+use glam::DVec3;
+use twoforms_estimator::density::{Piece, corner_cosines, each_piece};
+use twoforms_geometry::solid_angle::solid_angle;
+
+/// w on the pieces of a target: bilinear over the unit square that each is drawn from uniformly in solid angle.
+pub struct Bilinear(Vec<(Piece, [f64; 4])>);
+
+impl Bilinear {
+    /// The pieces of a target with these corners.
+    pub fn new(corners: &[DVec3]) -> Self {
+        let mut pieces = Vec::new();
+        each_piece(corners, |piece| {
+            let w = corner_cosines(&piece);
+            pieces.push((piece, w));
+        });
+        Self(pieces)
+    }
+
+    /// ∫ w dω over the target.
+    pub fn whole(&self) -> f64 {
+        self.0.iter().map(|(piece, w)| piece.solid_angle() * w.iter().sum::<f64>() / 4.0).sum()
+    }
+
+    /// Whether w is smooth over the target: it is one piece.
+    pub fn is_smooth(&self) -> bool {
+        self.0.len() == 1
+    }
+
+    /// w at a point of the target, or nearest to it.
+    pub fn at(&self, y: DVec3) -> f64 {
+        let found = self.0.iter().map(|(piece, w)| (numbers(piece, y), w));
+        let beyond = |[u, v]: [f64; 2]| [-u, u - 1.0, -v, v - 1.0].into_iter().fold(0.0, f64::max);
+        let nearest = found.min_by(|(one, _), (other, _)| beyond(*one).total_cmp(&beyond(*other)));
+        let Some(([u, v], [w00, w10, w01, w11])) = nearest else { return 0.0 };
+        (w00 * (1.0 - u) + w10 * u) * (1.0 - v) + (w01 * (1.0 - u) + w11 * u) * v
+    }
+}
+
+/// The two numbers that fall on y: the share of solid angle before it, and the share along what is left.
+fn numbers(piece: &Piece, y: DVec3) -> [f64; 2] {
+    match piece {
+        Piece::Rectangle(_, [a, b, _, d]) => {
+            let (e, f) = (*b - *a, *d - *a);
+            let s = (y - *a).dot(e) / e.length_squared();
+            let low = *a + e * s;
+            let up = |at: DVec3| at.dot(f.normalize()) / at.length();
+            let before = solid_angle(&[*a, low, low + f, *d]);
+            [before.copysign(s) / piece.solid_angle(), (up(y) - up(low)) / (up(low + f) - up(low))]
+        }
+        Piece::Triangle(triangle) => {
+            let [a, b, c] = triangle.corners();
+            let toward = b.cross(y - b).cross(a.cross(c - a));
+            let edge = toward * 1.0_f64.copysign(toward.dot(a.normalize() + c.normalize()));
+            let [psi, from, to] = [y, b, edge].map(DVec3::normalize);
+            let side = a.cross(edge).dot(a.cross(c));
+            let before = solid_angle(&[a, b, edge]).copysign(side);
+            let along = (psi - from).length_squared() / (to - from).length_squared();
+            [before / piece.solid_angle(), along.copysign((psi - from).dot(to - from))]
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The densities of techniques at points of the lights.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use twoforms_estimator::technique::{Kind, Technique};
+
+use crate::bilinear::Bilinear;
+use crate::error::Error;
+use crate::picked::{Draw, Shares, shares};
+use crate::seen::Seen;
+use crate::sight::Sight;
+use crate::value::EPSILON;
+
+/// The density of a technique over what x sees, and the probability of seeing nothing.
+pub struct Density {
+    measure: Measure,
+    shares: Shares,
+}
+
+/// What a density is constant in, on each facet.
+enum Measure {
+    /// dA.
+    Area,
+    /// dω.
+    SolidAngle,
+    /// cosθ_x dω.
+    ProjectedSolidAngle,
+    /// w dω, w a bilinear cosine.
+    BilinearCosine(Vec<Bilinear>),
+}
+
+impl Density {
+    /// The density at the sight's x.
+    ///
+    /// # Errors
+    /// [`Error::NoFormula`] for a density that no formula is known of; else as [`shares`].
+    pub fn new(sight: &Sight, Technique { kind, selection }: Technique) -> Result<Self, Error> {
+        let drawn = |measure, draw| Ok(Self { measure, shares: shares(sight, draw, selection)? });
+        match kind {
+            Kind::HemisphereUniform => Ok(Self::over_hemisphere(sight, Measure::SolidAngle, 2.0 * PI)),
+            Kind::HemisphereCosine => Ok(Self::over_hemisphere(sight, Measure::ProjectedSolidAngle, PI)),
+            Kind::AreaUniform | Kind::HemisphereTowardLights => drawn(Measure::Area, Draw::Uniform),
+            Kind::AreaSolidAngle => drawn(Measure::SolidAngle, Draw::SolidAngle),
+            Kind::AreaProjectedSolidAngle => drawn(Measure::ProjectedSolidAngle, Draw::ProjectedSolidAngle),
+            Kind::AreaBilinearCosine => {
+                let bilinear = sight.seen.iter().map(|seen| Bilinear::new(&seen.corners)).collect();
+                drawn(Measure::BilinearCosine(bilinear), Draw::BilinearCosine)
+            }
+            Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
+        }
+    }
+
+    /// One over the whole of a measure over the hemisphere.
+    fn over_hemisphere(sight: &Sight, measure: Measure, whole: f64) -> Self {
+        let (mut seen, mut error) = (0.0, 0.0);
+        for Seen { moments, .. } in &sight.seen {
+            let (moment, bound) = match &measure {
+                Measure::SolidAngle => (moments.solid_angle, moments.errors[0]),
+                _ => (moments.m10, moments.errors[1]),
+            };
+            seen += moment;
+            error += bound;
+        }
+        let missed = 1.0 - seen / whole;
+        // What lies below zero is rounding.
+        let hidden = if missed < 0.0 { 0.0 } else { missed };
+        let per_measure = vec![1.0 / whole; sight.seen.len()];
+        Self { measure, shares: Shares { per_measure, hidden, hidden_error: error / whole + 4.0 * EPSILON } }
+    }
+
+    /// p(y) in 1/m², y on a facet of the sight.
+    pub fn per_area(&self, index: usize, seen: &Seen, y: DVec3) -> f64 {
+        let r2 = y.length_squared();
+        self.shares.per_measure[index]
+            * match &self.measure {
+                Measure::Area => 1.0,
+                Measure::SolidAngle => seen.facet.s / (r2 * r2.sqrt()),
+                Measure::ProjectedSolidAngle => seen.g(y),
+                Measure::BilinearCosine(bilinear) => bilinear[index].at(y) * seen.facet.s / (r2 * r2.sqrt()),
+            }
+    }
+
+    /// The probability of a sample worth zero, and a bound of its error.
+    pub fn missed(&self) -> (f64, f64) {
+        (self.shares.hidden, self.shares.hidden_error)
+    }
+}

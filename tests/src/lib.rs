@@ -5,6 +5,7 @@ pub mod costs;
 pub mod densities;
 pub mod domain;
 pub mod figure;
+pub mod ggx;
 pub mod samples;
 pub mod scenes;
 pub mod statistics;

@@ -31,6 +31,9 @@ pub struct ExactResult {
     /// α of the default team with optimal weights, RGB, where a strategy uses it.
     #[serde(skip)]
     pub(crate) alpha: Option<[[f64; 3]; 2]>,
+    /// The radiance with V = 1, RGB, of a surface with a highlight.
+    #[serde(skip)]
+    pub(crate) unoccluded: Option<[f64; 3]>,
     /// The light along a sweep, where one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Swept>,
@@ -106,22 +109,25 @@ pub fn exactly(
 
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
-    let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
+    let frame = place.frame();
+    let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
+    let sight = sight.and_then(|sight| place.reflected(&frame, sight));
+    let unoccluded = sight.as_ref().ok().filter(|_| place.is_glossy()).map(|sight| sight.irradiance_unoccluded().rgb);
     let needed = strategies.iter().any(|strategy| strategy.needs_alpha());
     let alpha = sight.as_ref().ok().filter(|_| needed).and_then(|sight| sight.optimal_alpha().ok());
-    ExactResult { alpha, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
+    ExactResult { alpha, unoccluded, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
 }
 
 impl ExactResult {
     /// What is known beforehand for strategies that use it, as far as those that were asked about do.
     pub fn known(&self) -> Known {
-        Known { alpha: self.alpha }
+        Known { alpha: self.alpha, unoccluded: self.unoccluded }
     }
 
     /// What is known at a place.
     pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
         let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());
-        Self { name, position, normal, light, alpha: None, sweep }
+        Self { name, position, normal, light, alpha: None, unoccluded: None, sweep }
     }
 }
 

@@ -139,12 +139,31 @@ impl Experiment {
 
     /// Makes sure that what strategies must know beforehand is known everywhere.
     fn check_known(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
+        self.check_unoccluded(places, ready)?;
         let Some(strategy) = self.strategies.iter().find(|strategy| strategy.needs_alpha()) else { return Ok(()) };
         let unknown = places.iter().zip(ready).find(|(_, ready)| ready.answer.known().alpha.is_none());
         match unknown {
             None => Ok(()),
             Some((place, ready)) => Err(ComparisonError::Impossible(format!(
                 "\"{strategy}\" needs α, which is not known at receiver \"{}\": {}; leave the strategy or the receiver out",
+                place.name,
+                ready.answer.irradiance().err().unwrap_or(if place.is_glossy() {
+                    "f_r is not the same for all directions there"
+                } else {
+                    "its integrals do not converge there"
+                }),
+            ))),
+        }
+    }
+
+    fn check_unoccluded(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
+        let Some(strategy) = self.strategies.iter().find(|strategy| strategy.needs_unoccluded()) else { return Ok(()) };
+        let lacks = |place: &Place, ready: &Ready| place.is_glossy() && ready.answer.known().unoccluded.is_none();
+        match places.iter().zip(ready).find(|(place, ready)| lacks(place, ready)) {
+            None => Ok(()),
+            Some((place, ready)) => Err(ComparisonError::Impossible(format!(
+                "\"{strategy}\" needs the unhidden radiance, which is not known at receiver \"{}\": {}; leave the strategy \
+                 or the receiver out",
                 place.name,
                 ready.answer.irradiance().err().unwrap_or("its integrals do not converge there"),
             ))),

@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use glam::DVec3;
 
-use crate::cubature::{guess, integrate};
+use crate::cubature::{Peak, guess, integrate_near};
 use crate::error::Error;
 use crate::law::Part;
 use crate::outline::line_integral;
@@ -18,6 +18,19 @@ use crate::value::EPSILON;
 /// # Errors
 /// [`Error::NotConverged`].
 pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+    by_cubature_near(index, seen, None, f)
+}
+
+/// The same for functions that may have a peak.
+///
+/// # Errors
+/// [`Error::NotConverged`].
+pub fn by_cubature_near(
+    index: usize,
+    seen: &Seen,
+    peak: Option<&Peak>,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
@@ -28,7 +41,7 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
         let d = u - centre;
         [w, d * w, d * d * w]
     };
-    let slack = seen.slack();
+    let slack = seen.slack() * peak.map_or(1.0, Peak::steepness);
     // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
     let relative = |least: f64| least.max(0.1 * slack);
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
@@ -39,7 +52,7 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
             relative(1e-9) * second + 1e-18 * centre.abs() * size,
         ]
     };
-    let sum = integrate(&seen.pieces, about_centre, tolerance)?;
+    let sum = integrate_near(&seen.pieces, peak, about_centre, tolerance)?;
     let [mass, first, second] = sum.value;
     let shift = if mass > 0.0 { first / mass } else { 0.0 };
     let spread = second - shift * first;

@@ -72,7 +72,7 @@ impl Mis<'_> {
             let pdf = if k == i { found.pdf } else { technique.pdf_of(&from.only(found.seen), &found.y, &found.xy) };
             q[k] = pdf * R::splat(*n as f32);
         }
-        let f = self.query.received(&found.y, &found.xy);
+        let f = self.query.received(from, &found.y, &found.xy);
         let value = match self.weighting {
             Weighting::Optimal => self.residual(f, &q),
             weighting => f * weighting.over(&q[..self.team.len()], i),

@@ -1,6 +1,7 @@
 //! Densities: what points are drawn from, and how. A density knows its measure and nothing of the integrand.
 
 mod along;
+mod brdf;
 mod hemisphere;
 mod lights;
 mod one_target;
@@ -10,6 +11,7 @@ mod solid_angle;
 mod spherical_triangle;
 mod toward;
 
+pub use brdf::{BrdfOfSurface, ByBrdf};
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
 pub use one_target::OnOneTarget;

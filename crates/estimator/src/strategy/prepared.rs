@@ -22,6 +22,8 @@ pub struct Prepared {
 pub struct Known {
     /// α_i of the techniques of the default team with optimal weights, RGB.
     pub alpha: Option<[[f64; 3]; 2]>,
+    /// What x would receive were nothing in between, RGB, where f_r is not the same for all directions.
+    pub unoccluded: Option<[f64; 3]>,
 }
 
 impl Strategy {
@@ -34,6 +36,12 @@ impl Strategy {
     /// Whether it uses the α that are known beforehand: [`Known::alpha`].
     pub fn needs_alpha(self) -> bool {
         matches!(self, Self::Mis(Weighting::Optimal, _))
+    }
+
+    /// Whether it uses what x would receive were nothing in between, which must be known beforehand where f_r is not the same
+    /// for all directions: [`Known::unoccluded`].
+    pub fn needs_unoccluded(self) -> bool {
+        matches!(self, Self::Ratio | Self::ControlVariate)
     }
 
     /// Why the strategy can't be sampled at all, if it can't.
@@ -80,15 +88,14 @@ impl Prepared {
 
     /// Whether each x needs an estimator of its own, so that a view of many x has none.
     pub fn depends_on_x(&self) -> bool {
-        let by_itself =
-            matches!(self.strategy, Strategy::Ratio | Strategy::ControlVariate) || self.strategy.needs_alpha();
+        let by_itself = self.strategy.needs_unoccluded() || self.strategy.needs_alpha();
         by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
     }
 
     /// The strategy's estimator at x.
     ///
     /// # Panics
-    /// When the strategy needs α and `known` has none.
+    /// When the strategy needs α, or what x would receive were nothing in between, and `known` does not have it.
     pub fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Box<dyn Estimator + 'a> {
         let at = |k: usize| self.techniques[k].at(view, query);
         match self.strategy {
@@ -106,8 +113,8 @@ impl Prepared {
             Strategy::Resampled(candidates) => {
                 Box::new(Resampled { view, query, density: self.points(view, query), candidates })
             }
-            Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query) }),
-            Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query) }),
+            Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query, known) }),
+            Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query, known) }),
         }
     }
 
@@ -115,7 +122,9 @@ impl Prepared {
         self.points.at(view, query)
     }
 
-    fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {
-        Shadow { view, query, density: self.points(view, query), unoccluded: query.unoccluded(view) }
+    fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Shadow<'a> {
+        let unoccluded = query.unoccluded(view).or(known.unoccluded);
+        let unoccluded = unoccluded.expect("what x would receive were nothing in between");
+        Shadow { view, query, density: self.points(view, query), unoccluded }
     }
 }

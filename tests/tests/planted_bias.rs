@@ -265,7 +265,7 @@ fn wrong_densities_are_rejected() {
         p: found.p(),
         evidence: format!("{name}: {found}"),
     };
-    let directions = |density: &CosineToldUniform| chi_square(&near.view, density, &HemisphereCells, &near.draws);
+    let directions = |density: &CosineToldUniform| chi_square(&near.view, density, &HemisphereCells::EVEN, &near.draws);
     let picker = triangle.picker(Selection::Together);
     let cells = LightCells::new(&triangle.view, &picker);
     let points = chi_square(&triangle.view, &WithoutSquareRoot(on(&picker)), &cells, &triangle.draws);

@@ -59,10 +59,13 @@ impl Sight {
     }
 }
 
+/// A density at a point of the facet with this number, per area.
+type Pdf<'a> = dyn Fn(usize, &Seen, DVec3) -> f64 + 'a;
+
 /// How a technique draws: its density at a point y of a facet, per area, and the probability of a sample worth zero with a
 /// bound of its error.
 struct Drawn<'a> {
-    pdf: Box<dyn Fn(usize, &Seen, DVec3) -> f64 + 'a>,
+    pdf: Box<Pdf<'a>>,
     hidden: f64,
     hidden_error: f64,
 }
@@ -93,7 +96,8 @@ impl Reflected {
     }
 
     fn drawn<'a>(&'a self, sight: &'a Sight, Technique { kind, selection }: Technique) -> Result<Drawn<'a>, Error> {
-        let on_lights = |draw| on_lights(draw, picked::law(sight, draw, selection, Method::Edges)?, sight);
+        let law = |draw| picked::law(sight, draw, selection, Method::Edges);
+        let on_lights = |draw| law(draw).map(|law| on_lights(draw, &law, sight));
         match kind {
             Kind::HemisphereUniform => Ok(uniform(sight)),
             Kind::HemisphereCosine => {
@@ -201,7 +205,7 @@ impl Reflected {
     }
 }
 
-impl<'a> Drawn<'a> {
+impl Drawn<'_> {
     /// A p_1 + (1 − A) p_2.
     fn mixed(share: f64, one: Self, other: Self) -> Self {
         let mix = move |one: f64, other: f64| share * one + (1.0 - share) * other;
@@ -226,7 +230,7 @@ fn uniform(sight: &Sight) -> Drawn<'static> {
 
 /// Points uniform in a measure over the lights: the density of each facet is the probability of its visible part over the measure
 /// of that part.
-fn on_lights<'a>(draw: Draw, law: Law, sight: &Sight) -> Result<Drawn<'a>, Error> {
+fn on_lights(draw: Draw, law: &Law, sight: &Sight) -> Drawn<'static> {
     let mut shares = vec![0.0; sight.seen.len()];
     for part in &law.parts {
         let seen = &sight.seen[part.seen];
@@ -243,7 +247,7 @@ fn on_lights<'a>(draw: Draw, law: Law, sight: &Sight) -> Result<Drawn<'a>, Error
         Draw::ProjectedSolidAngle => seen.g(y),
     };
     let pdf = move |index: usize, seen: &Seen, y: DVec3| shares[index] * per_area(seen, y);
-    Ok(Drawn { pdf: Box::new(pdf), hidden: law.hidden, hidden_error: law.hidden_error })
+    Drawn { pdf: Box::new(pdf), hidden: law.hidden, hidden_error: law.hidden_error }
 }
 
 /// The variance from its four channels, if its own mean is the radiance.

@@ -1,7 +1,7 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, BilinearCosineOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
+    AreaOnLights, BilinearCosineOnLights, BrdfOfSurface, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
     SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use twoforms_estimator::measure::Measure;
@@ -24,8 +24,12 @@ pub trait Visitor {
 pub fn visit<V: Visitor>(technique: Technique, query: &Query, view: &View, visitor: V) -> V::Output {
     let Technique { kind, selection } = technique;
     match kind {
-        Kind::HemisphereUniform => visitor.visit(view, &UniformHemisphere, &HemisphereCells),
-        Kind::HemisphereCosine => visitor.visit(view, &CosineHemisphere, &HemisphereCells),
+        Kind::HemisphereUniform => visitor.visit(view, &UniformHemisphere, &HemisphereCells::EVEN),
+        Kind::HemisphereCosine => visitor.visit(view, &CosineHemisphere, &HemisphereCells::EVEN),
+        Kind::HemisphereBrdf => {
+            let ready = BrdfOfSurface::prepare(query.lights(), selection);
+            visitor.visit(view, &ready.at(view, query), &HemisphereCells::EVEN)
+        }
         Kind::HemisphereTowardLights => {
             let ready = TowardPreparedLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);

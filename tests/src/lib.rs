@@ -4,6 +4,7 @@ pub mod built;
 pub mod costs;
 pub mod densities;
 pub mod domain;
+pub mod ggx;
 pub mod samples;
 pub mod scenes;
 pub mod statistics;

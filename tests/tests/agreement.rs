@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use twoforms_comparison::experiment::Experiment;
-use twoforms_comparison::place::{Place, Quantity};
+use twoforms_comparison::place::{Place, Quantity, Reflection};
 use twoforms_comparison::result::{ReceiverResult, Row};
 use twoforms_comparison::verdict::Criteria;
 use twoforms_estimator::rgb::luminance;
@@ -120,7 +120,7 @@ fn nori_s_five_lights_reach_their_closed_form() {
     let mut outcomes = Vec::new();
     for (k, expected) in (1..).zip(stated) {
         let stage = worlds::stage(&format!("nori-light-{k}"));
-        let quantity = Quantity::Radiance { albedo: [0.5; 3], emission: [0.0; 3] };
+        let quantity = Quantity::Radiance { surface: Reflection::Lambertian([0.5; 3]), emission: [0.0; 3] };
         let place = Place { quantity, ..stage.case("origin").place };
         for row in measure(&stage, &[place]).iter().flat_map(|result| &result.rows) {
             let of_mean = row.variance_of_mean.expect("several replicates");

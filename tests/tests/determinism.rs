@@ -2,7 +2,7 @@
 
 use rayon::ThreadPoolBuilder;
 use twoforms_comparison::experiment::Experiment;
-use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
+use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering, Shown};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::verdict::Criteria;
 use twoforms_estimator::estimate::Estimate;
@@ -108,7 +108,7 @@ fn pixels(stage: &Stage, strategy: Strategy, seed: u64, threads: usize) -> Vec<P
         light_samples: 2,
         filter: PixelFilter::Box,
         cull: false,
-        radiance: true,
+        quantity: Shown::Radiance,
         seed,
     };
     let camera = &stage.world.scene.cameras[0];
@@ -140,7 +140,7 @@ fn a_crop_is_part_of_the_image() {
         light_samples: 3,
         filter: PixelFilter::Box,
         cull: false,
-        radiance: true,
+        quantity: Shown::Radiance,
         seed: 1,
     };
     let part = Rendering { crop: Crop { x0: 4, x1: 11, y0: 2, y1: 8 }, ..whole.clone() };

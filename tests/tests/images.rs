@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
+use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering, Shown};
 use twoforms_comparison::viewpoint;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::sampler::Sampler;
@@ -32,7 +32,7 @@ fn rendering(strategy: Strategy, [width, height]: [u32; 2], spp: u32) -> Renderi
         light_samples: 1,
         filter: PixelFilter::Box,
         cull: false,
-        radiance: true,
+        quantity: Shown::Radiance,
         seed: SEED,
     }
 }
@@ -199,8 +199,11 @@ fn strategies_agree_at_every_block_of_an_image() {
     let stage = worlds::stage("cornell-box");
     let camera = &stage.world.scene.cameras[0];
     let image = |strategy| {
-        let irradiance =
-            Rendering { radiance: false, light_samples: LIGHT_SAMPLES, ..rendering(strategy, [SIZE, SIZE], SPP) };
+        let irradiance = Rendering {
+            quantity: Shown::Irradiance,
+            light_samples: LIGHT_SAMPLES,
+            ..rendering(strategy, [SIZE, SIZE], SPP)
+        };
         render(&irradiance, &stage, camera)
     };
     let area = Strategy::from(Kind::AreaUniform);

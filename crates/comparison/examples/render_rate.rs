@@ -8,7 +8,7 @@ mod support;
 
 use std::error::Error;
 
-use twoforms_comparison::image::{Crop, PixelFilter, Rendering};
+use twoforms_comparison::image::{Crop, PixelFilter, Rendering, Shown};
 use twoforms_comparison::world::World;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_scene::Scene;
@@ -54,7 +54,7 @@ fn rendering([_, strategy, width, height, spp, light_samples]: &[String; 6]) -> 
         light_samples: whole(light_samples, "LIGHT_SAMPLES")?,
         filter: PixelFilter::Box,
         cull: false,
-        radiance: true,
+        quantity: Shown::Radiance,
         seed: 0,
     })
 }

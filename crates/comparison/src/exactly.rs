@@ -31,6 +31,9 @@ pub struct ExactResult {
     /// α of teams with optimal weights, RGB, where strategies use them and they can be had.
     #[serde(skip)]
     pub(crate) alpha: Vec<(Team, Vec<[f64; 3]>)>,
+    /// The radiance with V = 1, RGB, of a surface with a highlight.
+    #[serde(skip)]
+    pub(crate) unoccluded: Option<[f64; 3]>,
     /// The light along a sweep, where one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Swept>,
@@ -106,23 +109,26 @@ pub fn exactly(
 
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
-    let sight = receiver::look(&world.geometry, &world.lights, &place.frame(), place.f_r());
+    let frame = place.frame();
+    let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
+    let sight = sight.and_then(|sight| place.reflected(&frame, sight));
+    let unoccluded = sight.as_ref().ok().filter(|_| place.is_glossy()).map(|sight| sight.irradiance_unoccluded().rgb);
     let teams = strategies.iter().filter_map(|strategy| strategy.needs_alpha());
     let of = |team| Some((team, sight.as_ref().ok()?.optimal_alpha(team).ok()?));
     let alpha = teams.filter_map(of).collect();
-    ExactResult { alpha, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
+    ExactResult { alpha, unoccluded, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
 }
 
 impl ExactResult {
     /// What is known beforehand for strategies that use it, as far as those that were asked about do.
     pub fn known(&self) -> Known {
-        Known { alpha: self.alpha.clone(), ..Known::default() }
+        Known { alpha: self.alpha.clone(), unoccluded: self.unoccluded, ..Known::default() }
     }
 
     /// What is known at a place.
     pub(crate) fn new(place: &Place, light: ExactLight, sweep: Option<Swept>) -> Self {
         let (name, position, normal) = (place.name.clone(), place.position.to_array(), place.normal.to_array());
-        Self { name, position, normal, light, alpha: Vec::new(), sweep }
+        Self { name, position, normal, light, alpha: Vec::new(), unoccluded: None, sweep }
     }
 }
 

@@ -136,6 +136,7 @@ impl Experiment {
 
     /// Makes sure that what strategies must know beforehand is known everywhere.
     fn check_known(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
+        self.check_unoccluded(places, ready)?;
         for strategy in &self.strategies {
             let Some(team) = strategy.needs_alpha() else { continue };
             let unknown = |(_, ready): &(&Place, &Ready)| ready.answer.known().alpha(team).is_none();
@@ -148,6 +149,20 @@ impl Experiment {
                     why.as_deref().unwrap_or("its integrals do not converge there"),
                 )));
             }
+        }
+        Ok(())
+    }
+
+    fn check_unoccluded(&self, places: &[Place], ready: &[Ready]) -> Result<(), ComparisonError> {
+        let Some(strategy) = self.strategies.iter().find(|strategy| strategy.needs_unoccluded()) else { return Ok(()) };
+        let lacks = |place: &Place, ready: &Ready| place.is_glossy() && ready.answer.known().unoccluded.is_none();
+        if let Some((place, ready)) = places.iter().zip(ready).find(|(place, ready)| lacks(place, ready)) {
+            return Err(ComparisonError::Impossible(format!(
+                "\"{strategy}\" needs the unhidden radiance, which is not known at receiver \"{}\": {}; leave the strategy \
+                 or the receiver out",
+                place.name,
+                ready.answer.irradiance().err().unwrap_or("its integrals do not converge there"),
+            )));
         }
         Ok(())
     }

@@ -68,7 +68,8 @@ impl<'w> Stage<'w> {
         let frame = Frame::new(place.position + offset, place.normal);
         let checked = self.on_lights.check(&frame, Origin::Given);
         checked.map_err(|on_light| Error::OnLight { target: on_light.target })?;
-        receiver::look(&self.world.geometry, &self.world.lights, &frame, place.f_r())
+        let sight = receiver::look(&self.world.geometry, &self.world.lights, &frame, place.f_r())?;
+        place.reflected(&frame, sight)
     }
 
     /// With the lights moved.
@@ -76,7 +77,8 @@ impl<'w> Stage<'w> {
         let body = |lamp: &Lamp| Body { triangles: lamp.triangles.clone(), offset: offset(lamp) };
         let motion = Motion::new(scale, self.lamps.iter().map(body).collect());
         let World { geometry, lights, .. } = self.world;
-        receiver::look_moved(geometry, lights, &place.frame(), place.f_r(), &motion)
+        let sight = receiver::look_moved(geometry, lights, &place.frame(), place.f_r(), &motion)?;
+        place.reflected(&place.frame(), sight)
     }
 }
 

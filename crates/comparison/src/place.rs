@@ -1,9 +1,12 @@
 //! Places: where the light is measured.
 
 use glam::DVec3;
+use twoforms_estimator::glossy::{Glossy, MetallicRoughness};
 use twoforms_estimator::lights::Lights;
 use twoforms_estimator::query::Query;
+use twoforms_exact::{Error, Sight};
 use twoforms_geometry::frame::Frame;
+use twoforms_geometry::vector::round;
 use twoforms_scene::{KnownAnswer, Receiver};
 
 /// A receiver x: where it is, which way it faces, and what is asked there.
@@ -26,13 +29,41 @@ pub struct Place {
 pub enum Quantity {
     /// ∫ L_e cosθ dω: f_r = 1.
     Irradiance,
-    /// ∫ L_e f_r cosθ dω + emission, for a Lambertian surface.
+    /// ∫ L_e f_r cosθ dω + emission.
     Radiance {
-        /// ρ, RGB.
-        albedo: [f32; 3],
+        /// f_r.
+        surface: Reflection,
         /// L_e toward the eye, RGB, from the surface itself.
         emission: [f32; 3],
     },
+}
+
+/// How a surface reflects toward the eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reflection {
+    /// Alike in all directions: ρ, RGB. f_r = ρ/π.
+    Lambertian([f32; 3]),
+    /// With a highlight, wherever the eye is.
+    Glossy {
+        /// What it is made of.
+        surface: MetallicRoughness,
+        /// The eye's world position in metres.
+        eye: DVec3,
+    },
+}
+
+impl Reflection {
+    /// What estimators are asked at a point of the surface, given by its frame.
+    pub(crate) fn query<'l>(&self, lights: &'l Lights, frame: &Frame) -> Query<'l> {
+        match self {
+            Self::Lambertian(albedo) => Query::radiance(lights, *albedo),
+            Self::Glossy { surface, eye } => Query::glossy_radiance(lights, glossy(*surface, *eye, frame)),
+        }
+    }
+}
+
+fn glossy(surface: MetallicRoughness, eye: DVec3, frame: &Frame) -> Glossy {
+    Glossy::new(surface, round(frame.localize(eye)))
 }
 
 impl Place {
@@ -47,12 +78,33 @@ impl Place {
         }
     }
 
-    /// f_r, RGB: what scales the light that arrives.
+    /// f_r, RGB, where it is the same for all directions: what scales the light that arrives. Else 1: see
+    /// [`Place::reflected`].
     pub(crate) fn f_r(&self) -> [f64; 3] {
         match self.quantity {
-            Quantity::Irradiance => [1.0; 3],
-            Quantity::Radiance { albedo, .. } => albedo.map(|rho| f64::from(rho) * std::f64::consts::FRAC_1_PI),
+            Quantity::Radiance { surface: Reflection::Lambertian(albedo), .. } => {
+                albedo.map(|rho| f64::from(rho) * std::f64::consts::FRAC_1_PI)
+            }
+            Quantity::Irradiance | Quantity::Radiance { .. } => [1.0; 3],
         }
+    }
+
+    /// What a sight from `frame` comes to by a surface with a highlight, if that is what lies there.
+    ///
+    /// # Errors
+    /// Where there is no exact answer.
+    pub(crate) fn reflected(&self, frame: &Frame, sight: Sight) -> Result<Sight, Error> {
+        match self.quantity {
+            Quantity::Radiance { surface: Reflection::Glossy { surface, eye }, .. } => {
+                sight.reflected(&glossy(surface, eye, frame))
+            }
+            Quantity::Irradiance | Quantity::Radiance { .. } => Ok(sight),
+        }
+    }
+
+    /// Whether a surface with a highlight lies there.
+    pub(crate) fn is_glossy(&self) -> bool {
+        matches!(self.quantity, Quantity::Radiance { surface: Reflection::Glossy { .. }, .. })
     }
 
     /// L_e toward the eye from the surface itself, RGB.
@@ -67,7 +119,7 @@ impl Place {
     pub(crate) fn query<'l>(&self, lights: &'l Lights) -> Query<'l> {
         match self.quantity {
             Quantity::Irradiance => Query::irradiance(lights),
-            Quantity::Radiance { albedo, .. } => Query::radiance(lights, albedo),
+            Quantity::Radiance { surface, .. } => surface.query(lights, &self.frame()),
         }
     }
 

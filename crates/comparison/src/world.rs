@@ -3,12 +3,13 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
+use twoforms_estimator::glossy::{Makeup, MetallicRoughness};
 use twoforms_estimator::lights::Lights;
 use twoforms_geometry::blocking;
 use twoforms_geometry::geometry::Geometry;
 use twoforms_geometry::ray::Ray;
 use twoforms_geometry::tracer::Region;
-use twoforms_scene::{Scene, SceneError};
+use twoforms_scene::{Appearance, SMOOTHEST, Scene, SceneError};
 
 /// What a scene is made of, and where, with the hierarchy built.
 pub struct World {
@@ -77,6 +78,25 @@ impl World {
             ControlFlow::Continue(())
         });
         found
+    }
+
+    /// What the surface that is seen is made of.
+    pub fn appearance(&self, seen: &Seen) -> Appearance {
+        self.scene.material_of(seen.triangle).by_factors()
+    }
+
+    /// The surface that is seen, if it has a highlight.
+    pub fn highlight(&self, seen: &Seen) -> Option<MetallicRoughness> {
+        let Appearance { base_color, metallic, roughness, specular, f_0, .. } = self.appearance(seen);
+        let roughness = roughness.max(SMOOTHEST);
+        let makeup = Makeup { base: base_color, metallic, roughness, specular, f_0 };
+        self.appearance(seen).is_glossy().then(|| MetallicRoughness::new(&makeup))
+    }
+
+    /// Whether some surface of the scene has a highlight.
+    pub fn has_highlights(&self) -> bool {
+        let materials = self.scene.surfaces.iter().map(|surface| &self.scene.materials[surface.material]);
+        materials.into_iter().any(|material| material.by_factors().is_glossy())
     }
 
     /// L_e toward the eye from what is seen, RGB: black unless it is a light on a side that emits.

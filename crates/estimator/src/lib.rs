@@ -11,6 +11,7 @@ pub mod estimate;
 pub mod estimator;
 pub mod formulation;
 pub mod gauss;
+pub mod glossy;
 pub mod lights;
 pub mod measure;
 pub mod moments;

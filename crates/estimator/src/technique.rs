@@ -8,7 +8,7 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, BilinearCosineOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
+    AreaOnLights, BilinearCosineOnLights, BrdfOfSurface, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
     SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use crate::estimator::{Estimator, Single};
@@ -139,6 +139,9 @@ techniques! {
     HemisphereUniform: Hemisphere, UniformHemisphere = "hemisphere/uniform",
     /// p(Ψ) = cosθ/π.
     HemisphereCosine: Hemisphere, CosineHemisphere = "hemisphere/cosine",
+    /// As the surface reflects: directions mirrored at visible normals of GGX mixed with the cosine; the cosine alone where
+    /// f_r is the same for all directions.
+    HemisphereBrdf: Hemisphere, BrdfOfSurface = "hemisphere/brdf",
     /// The density of `area/uniform`, the integral over the hemisphere.
     HemisphereTowardLights: Hemisphere, TowardPreparedLights = "hemisphere/toward-lights" @selection,
     /// The same directions with their true density.

@@ -30,6 +30,23 @@ impl<const K: usize> Integral<K> {
     }
 }
 
+/// A direction around which a function of the direction from x may have a peak that the rules would miss.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// The direction, of unit length.
+    pub toward: DVec3,
+    /// Where the peak's nearest pole lies, in radian off the direction.
+    pub width: f64,
+}
+
+impl Peak {
+    /// By how much more than 1 the relative error of f can be than that of the directions it is taken at: near a double pole
+    /// at a distance w, f changes by at most 2/w of itself per radian.
+    pub fn steepness(&self) -> f64 {
+        1.0 + 2.0 / self.width
+    }
+}
+
 /// ∫ f dA over `pieces`, f a function of the point y on the light (metres, the receiver's frame, x
 /// at the origin), smooth on each piece. Cells are halved in one coordinate at a time until every
 /// component's estimated error is at most what `tolerance` allows for the totals.
@@ -41,7 +58,20 @@ pub fn integrate<const K: usize>(
     f: impl Fn(DVec3) -> [f64; K],
     tolerance: impl Fn(&[f64; K]) -> [f64; K],
 ) -> Result<Integral<K>, Error> {
-    let mut cells: Vec<Cell<K>> = patches(pieces).map(|patch| Cell::new(patch, &f)).collect();
+    integrate_near(pieces, None, f, tolerance)
+}
+
+/// The same for a function that may have a peak: cells are halved until none is wide beside it.
+///
+/// # Errors
+/// As [`integrate`].
+pub fn integrate_near<const K: usize>(
+    pieces: &Pieces,
+    peak: Option<&Peak>,
+    f: impl Fn(DVec3) -> [f64; K],
+    tolerance: impl Fn(&[f64; K]) -> [f64; K],
+) -> Result<Integral<K>, Error> {
+    let mut cells: Vec<Cell<K>> = patches(pieces).map(|patch| Cell::new(patch, peak, &f)).collect();
     let mut evaluated = cells.len();
     let limit = CELLS + 3 * evaluated;
     loop {
@@ -62,7 +92,7 @@ pub fn integrate<const K: usize>(
             if cell.is_good(&share) {
                 refined.push(cell);
             } else {
-                refined.extend(cell.halves(&share, &f));
+                refined.extend(cell.halves(&share, peak, &f));
             }
         }
         if refined.len() == before {
@@ -92,17 +122,17 @@ struct Patch {
 struct Cell<const K: usize> {
     patch: Patch,
     integral: Integral<K>,
-    /// Whether x is so near that the rules may miss a peak: the cell is halved whatever they say.
+    /// Whether x, or a peak, is so near that the rules may miss it: the cell is halved whatever they say.
     wide: bool,
 }
 
 impl<const K: usize> Cell<K> {
-    fn new(patch: Patch, f: &impl Fn(DVec3) -> [f64; K]) -> Self {
+    fn new(patch: Patch, peak: Option<&Peak>, f: &impl Fn(DVec3) -> [f64; K]) -> Self {
         let [high, low] = patch.rules();
         let value = patch.apply(high, high, f);
         let judge = patch.apply(low, low, f);
         let integral = Integral { value, error: difference(&value, &judge) };
-        Self { patch, integral, wide: patch.is_wide() }
+        Self { patch, integral, wide: patch.is_wide() || peak.is_some_and(|peak| patch.is_wide_beside(peak)) }
     }
 
     fn is_good(&self, share: &[f64; K]) -> bool {
@@ -111,9 +141,9 @@ impl<const K: usize> Cell<K> {
 
     /// Halves across the direction in which the lower rule fails more, measured by the `share` of
     /// error that each component is allowed; a wide cell across its longer side.
-    fn halves(&self, share: &[f64; K], f: &impl Fn(DVec3) -> [f64; K]) -> [Self; 2] {
+    fn halves(&self, share: &[f64; K], peak: Option<&Peak>, f: &impl Fn(DVec3) -> [f64; K]) -> [Self; 2] {
         let across_xi = if self.wide { self.patch.is_longer_in_xi() } else { self.fails_in_xi(share, f) };
-        self.patch.halves(across_xi).map(|half| Self::new(half, f))
+        self.patch.halves(across_xi).map(|half| Self::new(half, peak, f))
     }
 
     fn fails_in_xi(&self, share: &[f64; K], f: &impl Fn(DVec3) -> [f64; K]) -> bool {
@@ -127,7 +157,7 @@ impl<const K: usize> Cell<K> {
     }
 }
 
-/// A cell is wide when it is longer than this many times its distance from x.
+/// A cell is wide when it is longer than this many times its distance from x, or from a peak's nearest pole.
 const WIDE: f64 = 8.0;
 /// A patch is narrow when it is shorter than this many times its distance from x.
 const NARROW: f64 = 0.1;
@@ -187,6 +217,15 @@ impl Patch {
         let (length, corner) = self.size();
         // The nearest corner is at most one length farther than the nearest point.
         corner < (WIDE + 1.0) * length && length > WIDE * distance_to(&self.outline())
+    }
+
+    /// By directions from x: the cell lies in a cone around its middle.
+    fn is_wide_beside(&self, peak: &Peak) -> bool {
+        let outline = self.outline().map(DVec3::normalize);
+        let middle = outline.iter().sum::<DVec3>().normalize_or_zero();
+        let radius = outline.iter().map(|v| v.distance(middle)).fold(0.0, f64::max);
+        let beside = (middle.distance(peak.toward) - radius).max(0.0);
+        2.0 * radius > WIDE * (beside + peak.width)
     }
 
     fn is_longer_in_xi(&self) -> bool {

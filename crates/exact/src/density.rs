@@ -8,6 +8,7 @@ use twoforms_estimator::technique::{Kind, Technique};
 use crate::bilinear::Bilinear;
 use crate::error::Error;
 use crate::picked::{Draw, Shares, shares};
+use crate::reflected::Reflected;
 use crate::seen::Seen;
 use crate::sight::Sight;
 use crate::value::EPSILON;
@@ -28,13 +29,16 @@ enum Measure {
     ProjectedSolidAngle,
     /// w dω, w a bilinear cosine.
     BilinearCosine(Vec<Bilinear>),
+    /// What a surface with a highlight draws by itself.
+    Surface(Reflected),
 }
 
 impl Density {
     /// The density at the sight's x.
     ///
     /// # Errors
-    /// [`Error::NoFormula`] for a density that no formula is known of; else as [`shares`].
+    /// [`Error::NoFormula`] for a density that no formula is known of; else as [`shares`], and [`Error::NotConverged`] of a surface's
+    /// own density.
     pub fn new(sight: &Sight, Technique { kind, selection }: Technique) -> Result<Self, Error> {
         let drawn = |measure, draw| Ok(Self { measure, shares: shares(sight, draw, selection)? });
         match kind {
@@ -47,8 +51,19 @@ impl Density {
                 let bilinear = sight.seen.iter().map(|seen| Bilinear::new(&seen.corners)).collect();
                 drawn(Measure::BilinearCosine(bilinear), Draw::BilinearCosine)
             }
+            Kind::HemisphereBrdf => Self::of_surface(sight),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
         }
+    }
+
+    /// The cosine, where f_r is constant.
+    fn of_surface(sight: &Sight) -> Result<Self, Error> {
+        let Some(reflected) = &sight.reflected else {
+            return Ok(Self::over_hemisphere(sight, Measure::ProjectedSolidAngle, PI));
+        };
+        let (hidden, hidden_error) = reflected.missed_by_itself(sight)?;
+        let shares = Shares { per_measure: vec![1.0; sight.seen.len()], hidden, hidden_error };
+        Ok(Self { measure: Measure::Surface(reflected.clone()), shares })
     }
 
     /// One over the whole of a measure over the hemisphere.
@@ -78,6 +93,7 @@ impl Density {
                 Measure::SolidAngle => seen.facet.s / (r2 * r2.sqrt()),
                 Measure::ProjectedSolidAngle => seen.g(y),
                 Measure::BilinearCosine(bilinear) => bilinear[index].at(y) * seen.facet.s / (r2 * r2.sqrt()),
+                Measure::Surface(reflected) => reflected.own_density(seen, y),
             }
     }
 

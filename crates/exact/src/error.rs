@@ -63,6 +63,12 @@ pub enum Error {
         /// Irradiance by edge sums.
         irradiance: f64,
     },
+    /// The eye cannot see the side of a surface with a highlight on which the receiver lies.
+    #[error("the eye lies behind the surface at the receiver: look from the other side, or turn the receiver's normal")]
+    BehindSurface,
+    /// The strategy's weights of least variance are known for a constant f_r alone.
+    #[error("its α are known only where f_r is the same for all directions: leave highlights out, or take mis/balance")]
+    NotConstant,
     /// No formula is known here for the variance of this strategy.
     #[error("no formula is known for its variance")]
     NoFormula,

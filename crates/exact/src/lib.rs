@@ -8,7 +8,8 @@
 //! takes their place. Every value comes with an absolute error bound, or not at all.
 //!
 //! In words of the rendering equation: E = ∫ L_e cosθ_x V dω, f_r = 1. For a diffuse surface
-//! multiply E by ρ/π and variances by (ρ/π)².
+//! multiply E by ρ/π and variances by (ρ/π)². For a surface with a highlight, cubature gives the radiance toward an eye and
+//! the variances of its estimators ([`reflected`]).
 
 pub mod arc;
 pub mod bilinear;
@@ -29,6 +30,7 @@ pub mod optimal;
 pub mod outline;
 pub mod picked;
 pub mod receiver;
+pub mod reflected;
 pub mod seen;
 pub mod sight;
 pub mod spread;

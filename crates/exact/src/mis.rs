@@ -85,7 +85,7 @@ impl Members {
 }
 
 /// w_i/q_i.
-fn over(weighting: Weighting, q: [f64; 3], i: usize) -> f64 {
+pub fn over(weighting: Weighting, q: [f64; 3], i: usize) -> f64 {
     let most = q.iter().copied().fold(0.0, f64::max);
     let sum_from = |bound: f64| q.iter().filter(|&&q| q >= bound).sum::<f64>();
     match weighting {

@@ -118,7 +118,12 @@ impl Seen {
     /// Relative error that the coordinates' rounding leaves in cosθ_x and cosθ_y/r² on the visible
     /// part.
     pub fn slack(&self) -> f64 {
-        slack(&self.facet, self.moments.solid_angle, self.moments.m10)
+        self.slack_of(&self.moments)
+    }
+
+    /// The same on a part with these moments.
+    pub(crate) fn slack_of(&self, moments: &Moments) -> f64 {
+        slack(&self.facet, moments.solid_angle, moments.m10)
     }
 }
 

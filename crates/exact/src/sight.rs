@@ -8,6 +8,7 @@ use twoforms_geometry::frame::Frame;
 use crate::error::Error;
 use crate::facing::{Facing, Light};
 use crate::moments::Moments;
+use crate::reflected::Reflected;
 use crate::seen::Seen;
 use crate::value::{EPSILON, Value};
 use twoforms_estimator::rgb::luminance;
@@ -21,6 +22,8 @@ pub struct Sight {
     pub lights: Vec<Light>,
     /// The tree over the targets, and where x stands before it; none where the lights were moved.
     pub tree: Option<(Arc<Tree>, Frame)>,
+    /// What a surface with a highlight makes of it, where that is asked for.
+    pub(crate) reflected: Option<Reflected>,
 }
 
 impl Sight {
@@ -44,7 +47,7 @@ impl Sight {
         let sound = |value: f64| value.is_finite() && value >= 0.0;
         match lights.iter().position(|light| !sound(light.area) || !sound(light.power)) {
             Some(light) => Err(Error::BadLight { light }),
-            None => Ok(Self { seen: Vec::new(), lights: lights.to_vec(), tree: None }),
+            None => Ok(Self { seen: Vec::new(), lights: lights.to_vec(), tree: None, reflected: None }),
         }
     }
 
@@ -88,14 +91,14 @@ impl Sight {
         self.lights.iter().map(|light| light.area).sum()
     }
 
-    /// E = ∫ L_e cosθ_x V dω.
+    /// E = ∫ L_e cosθ_x V dω; of a reflected sight the radiance ∫ L_e f_r cosθ_x V dω.
     pub fn irradiance(&self) -> Value {
-        self.sum(|seen| &seen.moments)
+        self.reflected.as_ref().map_or_else(|| self.sum(|seen| &seen.moments), |reflected| reflected.arriving)
     }
 
-    /// E with V = 1: what the lights would give if nothing stood before them.
+    /// The same with V = 1: what the lights would give if nothing stood before them.
     pub fn irradiance_unoccluded(&self) -> Value {
-        self.sum(|seen| &seen.open)
+        self.reflected.as_ref().map_or_else(|| self.sum(|seen| &seen.open), |reflected| reflected.unoccluded)
     }
 
     /// Σ L_e M_10.

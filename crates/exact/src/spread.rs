@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use glam::DVec3;
 
-use crate::cubature::{guess, integrate};
+use crate::cubature::{Peak, guess, integrate_near};
 use crate::error::Error;
 use crate::law::Part;
 use crate::outline::line_integral;
@@ -18,7 +18,20 @@ use crate::value::EPSILON;
 /// # Errors
 /// [`Error::NotConverged`].
 pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    within(index, seen, FINE, f)
+    within(index, seen, None, FINE, f)
+}
+
+/// The same for functions that may have a peak.
+///
+/// # Errors
+/// [`Error::NotConverged`].
+pub fn by_cubature_near(
+    index: usize,
+    seen: &Seen,
+    peak: Option<&Peak>,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Part, Error> {
+    within(index, seen, peak, FINE, f)
 }
 
 /// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
@@ -27,7 +40,7 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
 /// # Errors
 /// [`Error::NotConverged`].
 pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    within(index, seen, ROUGH, f)
+    within(index, seen, None, ROUGH, f)
 }
 
 /// Relative errors of the mass, and of mean and spread.
@@ -37,6 +50,7 @@ const ROUGH: [f64; 2] = [1e-3, 1e-3];
 fn within(
     index: usize,
     seen: &Seen,
+    peak: Option<&Peak>,
     [of_mass, of_spread]: [f64; 2],
     f: impl Fn(DVec3) -> [f64; 2],
 ) -> Result<Part, Error> {
@@ -50,7 +64,7 @@ fn within(
         let d = u - centre;
         [w, d * w, d * d * w]
     };
-    let slack = seen.slack();
+    let slack = seen.slack() * peak.map_or(1.0, Peak::steepness);
     // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
     let relative = |least: f64| least.max(0.1 * slack);
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
@@ -61,7 +75,7 @@ fn within(
             relative(of_spread) * second + 1e-18 * centre.abs() * size,
         ]
     };
-    let sum = integrate(&seen.pieces, about_centre, tolerance)?;
+    let sum = integrate_near(&seen.pieces, peak, about_centre, tolerance)?;
     let [mass, first, second] = sum.value;
     let shift = if mass > 0.0 { first / mass } else { 0.0 };
     let spread = second - shift * first;

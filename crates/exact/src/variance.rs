@@ -50,6 +50,9 @@ impl Sight {
     /// The reason why there is no value: cubature that does not converge, or a selection that never
     /// picks a light that contributes.
     pub fn variance(&self, strategy: Strategy) -> Result<Value, Error> {
+        if let Some(reflected) = &self.reflected {
+            return reflected.variance(self, strategy);
+        }
         match strategy {
             Strategy::Single(technique) => self.of_technique(technique),
             Strategy::Mixture(0.0, [_, technique]) | Strategy::Mixture(1.0, [technique, _]) => {
@@ -70,7 +73,10 @@ impl Sight {
     fn of_technique(&self, Technique { kind, selection }: Technique) -> Result<Value, Error> {
         match kind {
             Kind::HemisphereUniform => Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2]))),
-            Kind::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
+            // f_r is constant, so that its own density is the cosine.
+            Kind::HemisphereCosine | Kind::HemisphereBrdf => {
+                Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1])))
+            }
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
@@ -157,8 +163,12 @@ impl Sight {
     /// α of a team's techniques with the weights of least variance, RGB.
     ///
     /// # Errors
-    /// [`Error::NotConverged`]; [`Error::NoFormula`] where a density of the team is not known.
+    /// [`Error::NotConverged`]; [`Error::NoFormula`] where a density of the team is not known; [`Error::NotConstant`] of a reflected
+    /// sight.
     pub fn optimal_alpha(&self, team: Team) -> Result<Vec<[f64; 3]>, Error> {
+        if self.reflected.is_some() {
+            return Err(Error::NotConstant);
+        }
         let alpha = Optimal::new(self, Members::new(self, team)?)?.alpha(&self.colours());
         Ok((0..team.members().count()).map(|k| [0, 1, 2].map(|channel| alpha[channel][k])).collect())
     }
@@ -170,7 +180,7 @@ impl Sight {
     }
 
     /// Refuses a variance whose own mean is not the irradiance.
-    fn consistent(&self, outcome: Outcome) -> Result<(), Error> {
+    pub(crate) fn consistent(&self, outcome: Outcome) -> Result<(), Error> {
         let irradiance = self.irradiance();
         let allowed = 1e-9 * irradiance.luminance + irradiance.error_bound + outcome.mean_error;
         if (outcome.mean - irradiance.luminance).abs() <= allowed {

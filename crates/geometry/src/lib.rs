@@ -10,6 +10,7 @@ mod hierarchy;
 pub mod lanes;
 pub mod masked;
 pub mod mesh;
+pub mod number;
 pub mod ray;
 pub mod real;
 pub mod segment;

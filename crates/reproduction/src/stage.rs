@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use toml::Spanned;
-use twoforms_comparison::place::{Place, Quantity};
+use twoforms_comparison::place::{Place, Quantity, Reflection};
 use twoforms_comparison::world::World;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
@@ -38,9 +38,10 @@ pub fn world(name: &Spanned<String>, text: &Text) -> Result<World, Error> {
 /// # Errors
 /// Where a name is none of the scene's, or a normal has no length.
 pub fn places(experiment: &Experiment, world: &World, text: &Text) -> Result<Vec<Place>, Error> {
-    let quantity = experiment
-        .albedo
-        .map_or(Quantity::Irradiance, |rho| Quantity::Radiance { albedo: [rho; 3], emission: [0.0; 3] });
+    let quantity = experiment.albedo.map_or(Quantity::Irradiance, |rho| Quantity::Radiance {
+        surface: Reflection::Lambertian([rho; 3]),
+        emission: [0.0; 3],
+    });
     let asked = |place: Place| Place { quantity, ..place };
     let all = &world.scene.receivers;
     let (names, at) = (experiment.receivers.as_deref(), experiment.at.as_deref());

@@ -19,11 +19,23 @@ pub struct Appearance {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
+    /// How much of its highlight it has as a dielectric, in [0, 1].
+    pub specular: f32,
+    /// What it reflects head-on as a dielectric, linear RGB in [0, 1].
+    pub f_0: [f32; 3],
     /// Radiance `L_e` (linear RGB) that leaves it on the sides that emit.
     pub emission: [f32; 3],
 }
 
+/// The least roughness that has an f_r to sample: a mirror's is no function.
+pub const SMOOTHEST: f32 = 1.0 / 32.0;
+
 impl Appearance {
+    /// Whether it has a highlight: f_r then depends on where it is seen from. Where it has none, f_r = ρ/π.
+    pub fn is_glossy(&self) -> bool {
+        self.metallic > 0.0 || self.specular > 0.0
+    }
+
     /// Diffuse albedo ρ (linear RGB): base colour × (1 − metallic).
     pub fn albedo(&self) -> [f32; 3] {
         self.base_color.map(|base| base * (1.0 - self.metallic))
@@ -36,11 +48,7 @@ impl Scene {
         let surface = self.surface_of(triangle);
         let material = &self.materials[surface.material];
         let Some(attributes) = &surface.attributes else {
-            return material.appearance(
-                material.base_color,
-                [material.metallic, material.roughness],
-                material.emission,
-            );
+            return material.by_factors();
         };
         let (vertices, weights) = (self.vertices_in(surface, triangle), [1.0 - b1 - b2, b1, b2]);
         let texel = |mapping: &Option<Mapping>| {
@@ -71,6 +79,11 @@ impl Scene {
 }
 
 impl Material {
+    /// What the surface is by the factors alone, whatever textures and vertex colours show.
+    pub fn by_factors(&self) -> Appearance {
+        self.appearance(self.base_color, [self.metallic, self.roughness], self.emission)
+    }
+
     fn appearance(
         &self,
         [red, green, blue, alpha]: [f32; 4],
@@ -83,7 +96,8 @@ impl Material {
             Alpha::Mask(_) => 0.0,
             Alpha::Blend => alpha,
         };
-        Appearance { base_color: [red, green, blue], alpha, metallic, roughness, emission }
+        let (base_color, specular, f_0) = ([red, green, blue], self.specular, self.f_0);
+        Appearance { base_color, alpha, metallic, roughness, specular, f_0, emission }
     }
 }
 

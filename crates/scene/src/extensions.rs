@@ -11,30 +11,30 @@ pub(crate) const UNPACK: &str = "`npx @gltf-transform/cli copy in.glb out.glb` w
 pub(crate) const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// Read, or without effect on what is read. Unlit materials and punctual lights warn where they stand.
-const READ: [&str; 6] = [
+const READ: [&str; 7] = [
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
+    "KHR_materials_specular",
     "KHR_materials_unlit",
     "KHR_texture_transform",
     QUANTIZATION,
 ];
 
-/// Ignored, each with its warning: how a surface reflects beyond diffusely, and images in other formats.
-const IGNORED: [(&str, &str); 10] = [
+/// Ignored, each with its warning: how a surface reflects beyond metal, roughness and highlight, and images in other formats.
+const IGNORED: [(&str, &str); 9] = [
     ("KHR_materials_anisotropy", GLOSS),
     ("KHR_materials_clearcoat", GLOSS),
     ("KHR_materials_ior", GLOSS),
     ("KHR_materials_iridescence", GLOSS),
     ("KHR_materials_sheen", GLOSS),
-    ("KHR_materials_specular", GLOSS),
     ("KHR_materials_transmission", OPAQUE),
     ("KHR_materials_volume", OPAQUE),
     ("KHR_texture_basisu", IMAGES),
     ("EXT_texture_webp", IMAGES),
 ];
 
-const GLOSS: &str = "surfaces are diffuse";
+const GLOSS: &str = "surfaces reflect by metal and roughness alone";
 const OPAQUE: &str = "surfaces are opaque";
 const IMAGES: &str = "images other than PNG and JPEG are not read";
 

@@ -3,14 +3,14 @@
 //! [`Scene::load`] is the way in. What it reads, warns about and refuses:
 //!
 //! - **Read**: triangles of every mode, indexed or not; node transforms; meshes used by several nodes and
-//!   `EXT_mesh_gpu_instancing`; `KHR_mesh_quantization`; sparse accessors; `KHR_materials_emissive_strength`; textures of
+//!   `EXT_mesh_gpu_instancing`; `KHR_mesh_quantization`; sparse accessors; `KHR_materials_emissive_strength`; factors of
+//!   `KHR_materials_specular` (where a file has none of it, a dielectric of roughness 1 is Lambertian); textures of
 //!   base colour, metallic and roughness, and emission, from PNG and JPEG, with all wraps, any set of coordinates and
 //!   `KHR_texture_transform`; vertex colours; alpha modes. Textures are looked up at points, nearest or bilinearly as
 //!   `magFilter` says: there are no reduced images. What a surface is at a point is [`Scene::appearance_at`], what leaves
 //!   a target [`Scene::target_emission`].
-//! - **Read otherwise, with a line in [`Scene::warnings`]**: metals and unlit materials (black as [`Scene::albedo`] has
-//!   them, which also takes no notice of textures, vertex colours and alpha), textures that cannot be used, normal maps,
-//!   punctual lights, points and lines, skins, morph targets and animations.
+//! - **Read otherwise, with a line in [`Scene::warnings`]**: unlit materials (black), mirrors (a little rough), textures that
+//!   cannot be used, normal maps, punctual lights, points and lines, skins, morph targets and animations.
 //! - **Refused, with a [`SceneError`]**: whatever would make a light or a surface other than the file means it: broken
 //!   buffers and indices, NaN, compressed meshes, broken textures on emitters, unknown required extensions.
 
@@ -54,7 +54,7 @@ mod transform;
 mod view;
 mod warnings;
 
-pub use appearance::Appearance;
+pub use appearance::{Appearance, SMOOTHEST};
 pub use attributes::Attributes;
 pub use camera::Camera;
 pub use emission::{Emission, Pattern};

@@ -7,6 +7,7 @@ use gltf::json::material::AlphaMode;
 use gltf::json::texture::Info;
 use gltf::json::validation::Checked::Valid;
 
+use crate::appearance::SMOOTHEST;
 use crate::document::Document;
 use crate::error::{Problem, malformed};
 use crate::image::Encoding;
@@ -28,6 +29,11 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
+    /// How much of its highlight a dielectric has, in [0, 1]: `specularFactor`. Where the file does not say, 1; but 0 for a
+    /// dielectric of roughness 1, which is then Lambertian.
+    pub specular: f32,
+    /// What a dielectric reflects head-on, linear RGB in [0, 1]: 0.04 × `specularColorFactor`.
+    pub f_0: [f32; 3],
     /// Emitted radiance `L_e` (linear RGB): emissiveFactor × emissiveStrength.
     pub emission: [f32; 3],
     /// Whether both sides emit, or the front alone.
@@ -88,7 +94,6 @@ pub(crate) fn read(
         }
     }
     if used.contains(&root.materials.len()) {
-        warnings.say("surfaces without a material are black: glTF's default is a metal");
         materials.push(convert(&json::Material::default(), "default".into())?);
     }
     Ok(Materials { materials, gathered: textures.gathered() })
@@ -96,14 +101,16 @@ pub(crate) fn read(
 
 fn convert(material: &json::Material, name: String) -> Result<Material, Problem> {
     let pbr = &material.pbr_metallic_roughness;
-    let (mut base_color, metallic, roughness) =
+    let (mut base_color, mut metallic, roughness) =
         (pbr.base_color_factor.0, pbr.metallic_factor.0, pbr.roughness_factor.0);
     if !base_color.iter().chain([&metallic, &roughness]).all(|factor| (0.0..=1.0).contains(factor)) {
         return Err(fault(&name, "has a baseColorFactor, roughnessFactor or metallicFactor outside [0, 1]"));
     }
+    let (mut specular, f_0) = highlight(material, &name)?;
     let mut emission = [0.0; 3];
     if is_unlit(material) {
         base_color[..3].fill(0.0);
+        (metallic, specular) = (0.0, 0.0);
     } else {
         emission = self::emission(material, &name)?;
     }
@@ -115,12 +122,32 @@ fn convert(material: &json::Material, name: String) -> Result<Material, Problem>
         base_color,
         metallic,
         roughness,
+        specular,
+        f_0,
         emission,
         double_sided: material.double_sided,
         base_color_texture: None,
         metallic_roughness_texture: None,
         emissive_texture: None,
     })
+}
+
+/// What a dielectric of refractive index 1.5 reflects head-on.
+const F_0: f32 = 0.04;
+
+/// The highlight of a material as a dielectric: how much of it there is, and what it reflects head-on.
+fn highlight(material: &json::Material, name: &str) -> Result<(f32, [f32; 3]), Problem> {
+    let pbr = &material.pbr_metallic_roughness;
+    let Some(specular) = material.extensions.as_ref().and_then(|extensions| extensions.specular.as_ref()) else {
+        let dull =
+            pbr.metallic_factor.0 == 0.0 && pbr.roughness_factor.0 == 1.0 && pbr.metallic_roughness_texture.is_none();
+        return Ok((if dull { 0.0 } else { 1.0 }, [F_0; 3]));
+    };
+    let (factor, color) = (specular.specular_factor.0, specular.specular_color_factor.0);
+    if (0.0..=1.0).contains(&factor) && color.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
+        return Ok((factor, color.map(|channel| (F_0 * channel).min(1.0))));
+    }
+    Err(fault(name, "has a specularFactor outside [0, 1], or a specularColorFactor that is negative or not finite"))
 }
 
 fn emission(material: &json::Material, name: &str) -> Result<[f32; 3], Problem> {
@@ -181,12 +208,16 @@ fn warn(material: &json::Material, name: &str, warnings: &mut Warnings) {
         || pbr.metallic_roughness_texture.is_some()
         || material.normal_texture.is_some()
         || material.occlusion_texture.is_some();
-    let metal = pbr.metallic_factor.0 > 0.0;
+    let specular = material.extensions.as_ref().and_then(|extensions| extensions.specular.as_ref());
+    let textured_highlight = specular
+        .is_some_and(|specular| specular.specular_texture.is_some() || specular.specular_color_texture.is_some());
+    let mirror = pbr.roughness_factor.0 < SMOOTHEST;
     let opaque = material.alpha_mode == Valid(AlphaMode::Opaque);
     let losses = [
         (is_unlit(material), "an unlit material is black and emits nothing"),
         (textured, "textures are ignored, factors alone count"),
-        (metal && !is_unlit(material), "a metal is black as far as it is metallic"),
+        (textured_highlight, "textures of highlights are ignored, factors alone count"),
+        (mirror && !is_unlit(material), "a mirror has no f_r and is taken as rough as 1/32"),
         (!opaque, "alpha is ignored, surfaces are opaque"),
     ];
     for (_, text) in losses.iter().filter(|(lost, _)| *lost) {

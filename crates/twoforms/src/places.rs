@@ -3,9 +3,10 @@
 use anyhow::{Context, Result, anyhow, bail};
 use glam::DVec3;
 use twoforms_comparison::on_light::{OnLight, OnLights, Origin};
-use twoforms_comparison::place::{Place, Quantity};
+use twoforms_comparison::place::{Place, Quantity, Reflection};
 use twoforms_comparison::viewpoint;
 use twoforms_comparison::world::{Seen, World};
+use twoforms_estimator::glossy::MetallicRoughness;
 use twoforms_estimator::nearest::nearest;
 use twoforms_scene::Camera;
 
@@ -26,10 +27,10 @@ pub enum Stay {
 
 /// The places that the command line asks for, never none.
 pub fn places(world: &World, places: &PlacesArgs, run: &RunArgs, stay: Stay) -> Result<Vec<Place>> {
-    let PlacesArgs { receivers: args, camera, quantity } = places;
+    let PlacesArgs { receivers: args, camera, quantity, lambert } = places;
     let note = |line: &str| run::note(run, line);
     let lights = (stay == Stay::Put).then(|| OnLights::new(world));
-    let finder = Finder { world, lights, args, camera, quantity: *quantity, note: &note };
+    let finder = Finder { world, lights, args, camera, quantity: *quantity, lambert: *lambert, note: &note };
     if camera.camera.is_some() {
         self::camera(world, camera)?; // a name that no camera has is told even where nothing looks through it
     }
@@ -75,6 +76,8 @@ struct Finder<'a> {
     args: &'a ReceiverArgs,
     camera: &'a CameraArgs,
     quantity: QuantityArg,
+    /// Whether highlights are left out.
+    lambert: bool,
     note: &'a dyn Fn(&str),
 }
 
@@ -194,7 +197,7 @@ impl Finder<'_> {
         let name = format!("pixel {},{}", at[0].floor(), at[1].floor());
         let quantity = match self.quantity {
             QuantityArg::Irradiance => Quantity::Irradiance,
-            QuantityArg::Radiance => self.radiance(&seen),
+            QuantityArg::Radiance => self.radiance(&seen, self.highlight(&seen), camera.position),
         };
         Some(Place { name, position: seen.position, normal: seen.normal, quantity, known: None })
     }
@@ -204,15 +207,41 @@ impl Finder<'_> {
             return Ok(Quantity::Irradiance);
         }
         match (self.world.surface_at(position, normal), self.args.albedo) {
-            (Some(seen), _) => Ok(self.radiance(&seen)),
-            (None, Some(albedo)) => Ok(Quantity::Radiance { albedo: albedo.0, emission: [0.0; 3] }),
+            (Some(seen), _) => match self.highlight(&seen) {
+                None => Ok(self.radiance(&seen, None, DVec3::ZERO)),
+                highlight => Ok(self.radiance(&seen, highlight, self.eye(&seen, name)?)),
+            },
+            (None, Some(albedo)) => {
+                Ok(Quantity::Radiance { surface: Reflection::Lambertian(albedo.0), emission: [0.0; 3] })
+            }
             (None, None) => bail!("no surface lies under the receiver \"{name}\", so its radiance needs --albedo"),
         }
     }
 
-    fn radiance(&self, seen: &Seen) -> Quantity {
-        let albedo = self.world.scene.albedo(seen.triangle);
-        Quantity::Radiance { albedo, emission: self.world.emission(seen) }
+    /// The highlight of a surface, unless all are left out.
+    fn highlight(&self, seen: &Seen) -> Option<MetallicRoughness> {
+        self.world.highlight(seen).filter(|_| !self.lambert)
+    }
+
+    fn radiance(&self, seen: &Seen, highlight: Option<MetallicRoughness>, eye: DVec3) -> Quantity {
+        let lambertian = || Reflection::Lambertian(self.world.appearance(seen).albedo());
+        let surface = highlight.map_or_else(lambertian, |surface| Reflection::Glossy { surface, eye });
+        Quantity::Radiance { surface, emission: self.world.emission(seen) }
+    }
+
+    /// Where the camera is that a receiver's radiance goes to.
+    fn eye(&self, seen: &Seen, name: &str) -> Result<DVec3> {
+        let camera = camera(self.world, self.camera).with_context(|| {
+            format!("the receiver \"{name}\" lies on a surface with a highlight, whose radiance depends on where it is seen from (or pass --lambert to leave highlights out)")
+        })?;
+        if (camera.position - seen.position).dot(seen.normal) > 0.0 {
+            return Ok(camera.position);
+        }
+        bail!(
+            "camera \"{}\" is behind the surface at the receiver \"{name}\", where no radiance of it arrives: pass \
+             {CAMERAS} on its side, turn its normal, or pass --lambert",
+            camera.name
+        )
     }
 }
 

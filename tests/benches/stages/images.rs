@@ -1,7 +1,7 @@
 //! A tile of an image, per light sample.
 
 use criterion::{Criterion, Throughput};
-use twoforms_comparison::image::{Crop, PixelFilter, Rendering};
+use twoforms_comparison::image::{Crop, PixelFilter, Rendering, Shown};
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_estimator::technique::Kind;
@@ -47,7 +47,7 @@ fn rendering(strategy: Strategy, [x0, y0]: [u32; 2], spp: u32, light_samples: u3
         light_samples,
         filter: PixelFilter::Box,
         cull: false,
-        radiance: true,
+        quantity: Shown::Radiance,
         seed: 0,
     }
 }

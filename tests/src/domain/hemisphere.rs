@@ -9,12 +9,22 @@ use super::{Domain, Patch};
 
 /// Cells of equal solid angle: a grid in cosθ and φ.
 #[derive(Clone, Copy, Debug)]
-pub struct HemisphereCells;
+pub struct HemisphereCells {
+    /// Patches along each side of a cell.
+    pub fine: usize,
+    /// The probability that a density draws a direction above the horizon.
+    pub mass: f64,
+    /// How far a sum over the patches may lie from the integral.
+    pub resolution: f64,
+}
 
 const ROWS: usize = 8;
 const COLUMNS: usize = 16;
-/// Patches along each side of a cell.
-const FINE: usize = 4;
+
+impl HemisphereCells {
+    /// For densities that are linear in cosθ: the value in the middle of a patch is the mean.
+    pub const EVEN: Self = Self { fine: 4, mass: 1.0, resolution: 1e-6 };
+}
 
 fn toward(cos_theta: f64, turns: f64) -> Aim<f32> {
     let (sin_phi, cos_phi) = libm::sincos(TAU * turns);
@@ -35,14 +45,15 @@ impl Domain<SolidAngle> for HemisphereCells {
         row * COLUMNS + ((turns * COLUMNS as f64) as usize).min(COLUMNS - 1)
     }
 
-    /// dω = dcosθ dφ; both densities are linear in cosθ, so the value in the middle is the mean.
+    /// dω = dcosθ dφ.
     fn patches(&self) -> Vec<Patch<Aim<f32>>> {
-        let (rows, columns) = (ROWS * FINE, COLUMNS * FINE);
+        let fine = self.fine;
+        let (rows, columns) = (ROWS * fine, COLUMNS * fine);
         let measure = TAU / (rows * columns) as f64;
         let middle = |k: usize, n: usize| (k as f64 + 0.5) / n as f64;
         let patch = |row, column| {
             let at = toward(middle(row, rows), middle(column, columns));
-            Patch { at, measure, cell: row / FINE * COLUMNS + column / FINE }
+            Patch { at, measure, cell: row / fine * COLUMNS + column / fine }
         };
         (0..rows).flat_map(|row| (0..columns).map(move |column| patch(row, column))).collect()
     }
@@ -53,10 +64,10 @@ impl Domain<SolidAngle> for HemisphereCells {
     }
 
     fn mass(&self) -> f64 {
-        1.0
+        self.mass
     }
 
     fn resolution(&self) -> f64 {
-        1e-6
+        self.resolution
     }
 }

@@ -174,7 +174,7 @@ impl Domain<SolidAngle> for LitDirections<'_> {
 
     /// Below the horizon.
     fn beyond(&self) -> Vec<Aim<f32>> {
-        HemisphereCells.beyond()
+        HemisphereCells::EVEN.beyond()
     }
 
     /// The probability that the point drawn lies above the horizon and off x's plane.

@@ -2,8 +2,9 @@
 
 use twoforms_estimator::sampler::Sampler;
 
-use super::{PixelFilter, Rendering};
+use super::{PixelFilter, Rendering, Shown};
 use crate::error::ComparisonError;
+use crate::world::World;
 
 /// How far from the number asked for another one is looked for.
 const FARTHEST: u32 = 1 << 16;
@@ -11,7 +12,18 @@ const FARTHEST: u32 = 1 << 16;
 impl Rendering {
     /// Makes sure that the sampler can spread the camera samples of a pixel, which are one set of points, and its light
     /// samples, which are another.
-    pub(super) fn admit(&self) -> Result<(), ComparisonError> {
+    pub(super) fn admit(&self, world: &World) -> Result<(), ComparisonError> {
+        if self.quantity == Shown::Radiance && self.strategy.needs_unoccluded() && world.has_highlights() {
+            return Err(ComparisonError::Impossible(format!(
+                "\"{}\" needs the unhidden light, which an image does not know where surfaces have highlights: \
+                 take another strategy, or leave highlights out with --lambert",
+                self.strategy
+            )));
+        }
+        self.admit_samples()
+    }
+
+    fn admit_samples(&self) -> Result<(), ComparisonError> {
         let Self { strategy, sampler, spp, light_samples, .. } = *self;
         if let Some(why) = strategy.impossible_in_images() {
             return Err(ComparisonError::Impossible(why));
@@ -51,7 +63,7 @@ mod tests {
     use twoforms_estimator::sampler::Sampler;
     use twoforms_estimator::strategy::Strategy;
 
-    use crate::image::{Crop, PixelFilter, Rendering};
+    use crate::image::{Crop, PixelFilter, Rendering, Shown};
 
     fn rendering(sampler: &str, spp: u32, light_samples: u32) -> Rendering {
         Rendering {
@@ -64,7 +76,7 @@ mod tests {
             light_samples,
             filter: PixelFilter::Box,
             cull: false,
-            radiance: true,
+            quantity: Shown::Radiance,
             seed: 0,
         }
     }
@@ -72,14 +84,15 @@ mod tests {
     #[test]
     fn what_a_sampler_can_spread_is_admitted() {
         for (sampler, spp, light) in [("independent", 5, 3), ("halton", 5, 3), ("jittered", 9, 4), ("sobol", 8, 2)] {
-            assert_eq!(rendering(sampler, spp, light).admit(), Ok(()), "{sampler}, {spp} × {light}");
+            assert_eq!(rendering(sampler, spp, light).admit_samples(), Ok(()), "{sampler}, {spp} × {light}");
         }
-        assert_eq!(Rendering { filter: PixelFilter::Point, ..rendering("jittered", 2, 8) }.admit(), Ok(()));
+        assert_eq!(Rendering { filter: PixelFilter::Point, ..rendering("jittered", 2, 8) }.admit_samples(), Ok(()));
     }
 
     #[test]
     fn what_it_cannot_is_refused_with_what_it_can() {
-        let refused = |sampler, spp, light| rendering(sampler, spp, light).admit().map_err(|e| e.to_string()).err();
+        let refused =
+            |sampler, spp, light| rendering(sampler, spp, light).admit_samples().map_err(|e| e.to_string()).err();
         let says = |sampler, spp, light, what| {
             let message = refused(sampler, spp, light).unwrap_or_default();
             assert!(message.contains(what), "{message}");

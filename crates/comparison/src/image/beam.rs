@@ -121,7 +121,8 @@ impl<'a> Beam<'a> {
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
             let seen = self.seen(pane as usize, DVec3::from_array(chunk.toward(k).map(f64::from)));
-            let (value, rays) = self.painter.receive(&seen, query, chunk.stream(k)).map_err(|source| (k, source))?;
+            let Some(query) = self.painter.surface(&seen).query else { continue };
+            let (value, rays) = self.painter.receive(&seen, &query, chunk.stream(k)).map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
         Ok(())

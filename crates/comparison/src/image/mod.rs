@@ -30,6 +30,17 @@ pub enum PixelFilter {
     Point,
 }
 
+/// What a pixel shows of the light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// Irradiance: f_r = 1.
+    Irradiance,
+    /// Radiance toward the camera, by the surface's own f_r.
+    Radiance,
+    /// The same with surfaces that reflect diffusely alone, by their albedo.
+    Diffuse,
+}
+
 /// What to render, and how.
 #[derive(Clone, Debug)]
 pub struct Rendering {
@@ -51,8 +62,8 @@ pub struct Rendering {
     pub filter: PixelFilter,
     /// Whether single-sided surfaces seen from behind are black.
     pub cull: bool,
-    /// Whether radiance is asked for, or irradiance.
-    pub radiance: bool,
+    /// What each pixel shows.
+    pub quantity: Shown,
     /// The seed.
     pub seed: u64,
 }
@@ -154,7 +165,7 @@ impl Rendering {
         camera: &Camera,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<Pixel>, ComparisonError> {
-        self.admit()?;
+        self.admit(world)?;
         let painter = Painter::new(self, world, camera);
         let mut image = vec![Pixel::default(); self.crop.width() as usize * self.crop.height() as usize];
         tiles(self.crop, &mut image).into_par_iter().try_for_each_init(Chunk::new, |chunk, mut tile| {

@@ -16,8 +16,9 @@ use twoforms_scene::Camera;
 use super::beam::Beam;
 use super::chunk::Chunk;
 use super::samples::Samples;
-use super::{Centre, Crop, Pixel, PixelFilter, Rendering};
+use super::{Centre, Crop, Pixel, PixelFilter, Rendering, Shown};
 use crate::error::BrokenPixel;
+use crate::place::Reflection;
 use crate::viewpoint;
 use crate::world::{Seen, World};
 
@@ -119,14 +120,28 @@ impl<'a> Painter<'a> {
 
     /// What a surface shows of itself and asks of the light.
     pub(super) fn surface(&self, seen: &Seen) -> Surface<'a> {
-        let Rendering { cull, radiance, .. } = *self.rendering;
-        let emission = if radiance { self.world.emission(seen) } else { [0.0; 3] };
-        let material = self.world.scene.material_of(seen.triangle);
-        let culled = cull && !seen.front && !material.double_sided;
-        let black = culled || (radiance && material.albedo == [0.0; 3]);
-        let lights = &self.world.lights;
-        let query = if radiance { Query::radiance(lights, material.albedo) } else { Query::irradiance(lights) };
-        Surface { emission: emission.map(f64::from), query: (!black).then_some(query) }
+        let Rendering { cull, quantity, .. } = *self.rendering;
+        let emission = if quantity == Shown::Irradiance { [0.0; 3] } else { self.world.emission(seen) };
+        let culled = cull && !seen.front && !self.world.scene.material_of(seen.triangle).double_sided;
+        let query = if culled { None } else { self.query(seen) };
+        Surface { emission: emission.map(f64::from), query }
+    }
+
+    /// What is asked of the light at what is seen; nothing where that reflects none.
+    fn query(&self, seen: &Seen) -> Option<Query<'a>> {
+        let (world, lights) = (self.world, &self.world.lights);
+        let highlight = match self.rendering.quantity {
+            Shown::Irradiance => return Some(Query::irradiance(lights)),
+            Shown::Diffuse => None,
+            Shown::Radiance => world.highlight(seen),
+        };
+        let albedo = world.appearance(seen).albedo();
+        let reflection = match highlight {
+            Some(surface) => Reflection::Glossy { surface, eye: self.camera.position },
+            None if albedo == [0.0; 3] => return None,
+            None => Reflection::Lambertian(albedo),
+        };
+        Some(reflection.query(lights, &Frame::new(seen.position, seen.normal)))
     }
 
     /// L_e of what is seen, plus what it reflects.
@@ -206,7 +221,7 @@ mod tests {
     use twoforms_scene::Scene;
 
     use super::Painter;
-    use crate::image::{Crop, Pixel, PixelFilter, Rendering};
+    use crate::image::{Crop, Pixel, PixelFilter, Rendering, Shown};
     use crate::viewpoint;
     use crate::world::World;
 
@@ -215,7 +230,7 @@ mod tests {
         World::new(Scene::load(&path).expect("a scene of the project")).expect("a scene with lights")
     }
 
-    fn rendering(strategy: Strategy, radiance: bool) -> Rendering {
+    fn rendering(strategy: Strategy, quantity: Shown) -> Rendering {
         let crop = Crop { x0: 0, x1: 48, y0: 0, y1: 48 };
         Rendering {
             strategy,
@@ -227,7 +242,7 @@ mod tests {
             light_samples: 18,
             filter: PixelFilter::Box,
             cull: false,
-            radiance,
+            quantity,
             seed: 3,
         }
     }
@@ -246,12 +261,26 @@ mod tests {
     #[test]
     fn beams_see_what_rays_see() {
         let mut pixels = [0, 0];
-        for name in ["cornell-box", "two-lights", "square-light", "nori-light-3", "tiny-far-light", "furnace"] {
-            let world = world(name);
+        let names = ["cornell-box", "two-lights", "square-light", "nori-light-3", "tiny-far-light", "furnace"];
+        for (name, polished) in names.map(|name| (name, false)).into_iter().chain([("two-lights", true)]) {
+            let mut world = world(name);
+            for material in &mut world.scene.materials {
+                (material.specular, material.roughness) = if polished { (1.0, 0.4) } else { (0.0, 1.0) };
+            }
             let auto = viewpoint::auto(&world.scene.mesh);
             let camera = world.scene.cameras.first().or(auto.as_ref()).expect("a camera");
             for strategy in Strategy::all_in_images() {
-                let rendering = rendering(strategy, strategy != Strategy::from(Kind::HemisphereUniform));
+                if polished && strategy.needs_unoccluded() {
+                    continue;
+                }
+                let rendering = rendering(
+                    strategy,
+                    if strategy == Strategy::from(Kind::HemisphereUniform) {
+                        Shown::Irradiance
+                    } else {
+                        Shown::Radiance
+                    },
+                );
                 let painter = Painter::new(&rendering, &world, camera);
                 let beams = rendering.run(&world, camera, &|_| ()).expect("finite samples");
                 let rays = rendering.crop.pixels().map(|[x, y]| painter.pixel(x, y).expect("finite samples"));

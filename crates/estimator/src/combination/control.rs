@@ -49,7 +49,7 @@ impl Shadow<'_> {
         let (sample, some) = self.density.sample(from, drawn.xi(0)).parts();
         let xy = Segment::to(&sample.at);
         let facing = some & from.wanted() & xy.facing();
-        let g = self.query.l_e(Masked::new(sample.at, facing)) * self.query.f_r(xy.psi) * xy.g();
+        let g = self.query.l_e(Masked::new(sample.at, facing)) * self.query.f_r(from, xy.psi) * xy.g();
         ((g * (R::one() / sample.pdf.value())).or_black(facing), sample, facing)
     }
 

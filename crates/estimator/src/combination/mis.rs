@@ -70,7 +70,7 @@ impl Mis<'_> {
             return missed;
         }
         let q = self.expected(from, i, found);
-        let f = self.query.received(&found.y, &found.xy);
+        let f = self.query.received(from, &found.y, &found.xy);
         let value = match self.weighting {
             Weighting::Optimal | Weighting::Pilot(_) => self.residual(f, &q),
             weighting => f * weighting.over(&q[..self.team.len()], i),

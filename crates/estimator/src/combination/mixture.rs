@@ -83,7 +83,7 @@ impl Primary for Mixture<'_> {
             if found.seen.any() {
                 let other = self.pair[1 - side].pdf_of(&here.only(found.seen), &found.y, &found.xy);
                 let p = found.pdf * R::splat(shares[side]) + other * R::splat(shares[1 - side]);
-                let f = self.query.received(&found.y, &found.xy);
+                let f = self.query.received(&here, &found.y, &found.xy);
                 value = value + (f * (R::one() / p)).or_black(found.seen);
             }
         }

@@ -3,6 +3,7 @@
 mod along;
 mod arc_tangent;
 mod bilinear_cosine;
+mod brdf;
 mod hemisphere;
 mod lights;
 mod one_target;
@@ -15,6 +16,7 @@ mod spherical_triangle;
 mod toward;
 
 pub use bilinear_cosine::{BilinearCosineOnLights, ByBilinearCosine, corner_cosines};
+pub use brdf::{BrdfOfSurface, ByBrdf};
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Picking, Spread};
 pub use one_target::OnOneTarget;

@@ -23,6 +23,8 @@ pub struct Prepared {
 pub struct Known {
     /// α_i of the techniques of teams with optimal weights, RGB.
     pub alpha: Vec<(Team, Vec<[f64; 3]>)>,
+    /// What x would receive were nothing in between, RGB, where f_r is not the same for all directions.
+    pub unoccluded: Option<[f64; 3]>,
     /// The key of pilot samples.
     pub key: Key,
 }
@@ -30,7 +32,7 @@ pub struct Known {
 /// Nothing is known.
 impl Default for Known {
     fn default() -> Self {
-        Self { alpha: Vec::new(), key: Key::new([]) }
+        Self { alpha: Vec::new(), unoccluded: None, key: Key::new([]) }
     }
 }
 
@@ -46,6 +48,12 @@ impl Strategy {
     pub fn prepare(self, lights: &Lights) -> Prepared {
         let techniques = self.techniques().iter().map(|technique| technique.prepare(lights)).collect();
         Prepared { strategy: self, techniques, points: AreaOnLights::prepare(lights, AREA.selection) }
+    }
+
+    /// Whether it uses what x would receive were nothing in between, which must be known beforehand where f_r is not the same
+    /// for all directions: [`Known::unoccluded`].
+    pub fn needs_unoccluded(self) -> bool {
+        matches!(self, Self::Ratio | Self::ControlVariate)
     }
 
     /// The team whose α must be known beforehand, if one must: see [`Known::alpha`].
@@ -93,15 +101,17 @@ impl Prepared {
     /// Whether each x needs an estimator of its own, so that a view of many x has none.
     pub fn depends_on_x(&self) -> bool {
         let by_itself = match self.strategy {
-            Strategy::Ratio | Strategy::ControlVariate => true,
             Strategy::Mis(weighting, _) => matches!(weighting, Weighting::Optimal | Weighting::Pilot(_)),
-            _ => false,
+            strategy => strategy.needs_unoccluded(),
         };
         by_itself || self.techniques.iter().any(PreparedTechnique::depends_on_x)
     }
 
     /// The strategy's estimator at x. An α that should be known and is not is zero, which leaves the weights of the balance
     /// heuristic.
+    ///
+    /// # Panics
+    /// When the strategy needs what x would receive were nothing in between, and neither a closed form nor `known` has it.
     pub fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Box<dyn Estimator + 'a> {
         let at = |k: usize| self.techniques[k].at(view, query);
         let pairs = self.strategy.pairs();
@@ -123,8 +133,8 @@ impl Prepared {
             Strategy::Resampled(candidates) => {
                 Box::new(Resampled { view, query, density: self.points(view, query), candidates, pairs })
             }
-            Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query) }),
-            Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query) }),
+            Strategy::Ratio => Box::new(Ratio { shadow: self.shadow(view, query, known) }),
+            Strategy::ControlVariate => Box::new(ControlVariate { shadow: self.shadow(view, query, known) }),
         }
     }
 
@@ -132,8 +142,10 @@ impl Prepared {
         self.points.at(view, query)
     }
 
-    fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>) -> Shadow<'a> {
-        Shadow { view, query, density: self.points(view, query), unoccluded: query.unoccluded(view) }
+    fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Shadow<'a> {
+        let unoccluded = query.unoccluded(view).or(known.unoccluded);
+        let unoccluded = unoccluded.expect("what x would receive were nothing in between");
+        Shadow { view, query, density: self.points(view, query), unoccluded }
     }
 }
 

@@ -34,6 +34,12 @@ impl<'v, R: Real> Vantage<'v, R> {
         self.wanted
     }
 
+    /// The points of the footprint, in metres in the frame of x; none where all samples look from x itself.
+    #[inline(always)]
+    pub fn start(&self) -> Option<Vector<R>> {
+        self.start
+    }
+
     /// What x sees.
     #[inline(always)]
     pub fn view(&self) -> &'v View<'v> {

@@ -160,14 +160,7 @@ fn albedo_is_base_colour_without_the_metallic_share() {
     let scene = file.scene();
     assert_eq!([0, 2, 4].map(|t| scene.albedo(t)), [[0.25, 0.125, 0.5], [0.0; 3], [0.0; 3]]);
     assert!(scene.lights.is_empty(), "an unlit material is no light");
-    assert_eq!(
-        scene.warnings,
-        [
-            r#"a metal is black as far as it is metallic: "half""#,
-            r#"an unlit material is black and emits nothing: "sky""#,
-            "surfaces without a material are black: glTF's default is a metal",
-        ]
-    );
+    assert_eq!(scene.warnings, [r#"an unlit material is black and emits nothing: "sky""#]);
 }
 
 #[test]
@@ -194,7 +187,7 @@ fn what_is_not_read_is_said_once() {
     assert_eq!(
         file.scene().warnings,
         [
-            r#"an extension is ignored, surfaces are diffuse: "KHR_materials_sheen""#,
+            r#"an extension is ignored, surfaces reflect by metal and roughness alone: "KHR_materials_sheen""#,
             r#"an extension is ignored, surfaces are opaque: "KHR_materials_volume""#,
             r#"an extension is ignored, it is not known here: "ACME_dust""#,
             r#"an extension is ignored, images other than PNG and JPEG are not read: "KHR_texture_basisu""#,

@@ -84,7 +84,7 @@ pub struct RunArgs {
 pub enum QuantityArg {
     /// ∫ L_e cosθ dω: f_r = 1
     Irradiance,
-    /// Toward the eye, from a Lambertian surface, with its own emission
+    /// ∫ L_e f_r cosθ dω toward the camera, with the surface's own emission
     Radiance,
 }
 
@@ -115,10 +115,13 @@ pub struct PlacesArgs {
     /// What is asked of the light
     #[arg(long, value_enum, default_value_t = QuantityArg::Irradiance)]
     pub quantity: QuantityArg,
+    /// Radiance without highlights: every surface reflects diffusely, by its albedo (a metal's is black)
+    #[arg(long)]
+    pub lambert: bool,
     /// The receivers.
     #[command(flatten)]
     pub receivers: ReceiverArgs,
-    /// The camera for receivers given by pixels.
+    /// The camera for receivers given by pixels, and for radiance toward it.
     #[command(flatten)]
     pub camera: CameraArgs,
 }
@@ -294,6 +297,9 @@ pub struct RenderArgs {
     /// What is asked of the light
     #[arg(long, value_enum, default_value_t = QuantityArg::Radiance)]
     pub quantity: QuantityArg,
+    /// No highlights: every surface reflects diffusely, by its albedo (a metal's is black)
+    #[arg(long)]
+    pub lambert: bool,
     /// Single-sided surfaces seen from behind are black
     #[arg(long)]
     pub cull: bool,

@@ -5,7 +5,7 @@ use std::time::{Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
 use indicatif::HumanCount;
-use twoforms_comparison::image::{Centre, Crop, Pixel, PixelFilter, Rendering};
+use twoforms_comparison::image::{Centre, Crop, Pixel, PixelFilter, Rendering, Shown};
 use twoforms_report::exr::write_exr;
 use twoforms_report::png::write_png;
 use twoforms_report::{Channel, Image, file};
@@ -112,7 +112,11 @@ fn rendering(args: &RenderArgs, [width, height]: ImageSize) -> Result<Rendering>
             FilterArg::Point => PixelFilter::Point,
         },
         cull: args.cull,
-        radiance: args.quantity == QuantityArg::Radiance,
+        quantity: match args.quantity {
+            QuantityArg::Irradiance => Shown::Irradiance,
+            QuantityArg::Radiance if args.lambert => Shown::Diffuse,
+            QuantityArg::Radiance => Shown::Radiance,
+        },
         seed: args.run.seed,
     })
 }

@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::support::{changed_box, folder, run, scene, twoforms, without_camera, without_receivers, written};
+use crate::support::{Run, changed_box, folder, run, scene, twoforms, without_camera, without_receivers, written};
 
 /// The commands that take a scene.
 const COMMANDS: [&str; 4] = ["compare", "exact", "render", "inspect"];
@@ -99,6 +99,54 @@ fn radiance_off_any_surface_needs_an_albedo() {
     let line = "compare @cornell-box --quantity radiance --at 0.2,0.1,0.1,0,1,0 --samples 1 --replicates 2";
     twoforms(line).fails(&["no surface", "--albedo"]);
     assert_eq!(twoforms(&format!("{line} --albedo 0.5,0.4,0.3")).code, Some(0));
+}
+
+/// A surface with a highlight sends its radiance somewhere: that needs a camera, on its side.
+#[test]
+fn radiance_of_a_highlight_needs_a_camera_that_sees_it() {
+    let folder = folder("highlights");
+    let polished = |gltf: &mut Value| {
+        for material in gltf["materials"].as_array_mut().expect("materials") {
+            material["pbrMetallicRoughness"]["roughnessFactor"] = json!(0.5);
+        }
+    };
+    let box_with = |name: &str, change: &dyn Fn(&mut Value)| {
+        changed_box(&folder, name, |gltf| {
+            polished(gltf);
+            change(gltf);
+        })
+    };
+    let blind = box_with("blind.gltf", &without_camera);
+    let ask = |path: &str, more: &[&str]| {
+        let words = [
+            "exact",
+            path,
+            "--quantity",
+            "radiance",
+            "--receiver",
+            "floor-lit",
+            "--strategies",
+            "area/uniform,hemisphere/brdf,mis/balance(area/solid-angle,hemisphere/brdf)",
+        ];
+        run(words.iter().chain(more).copied())
+    };
+    ask(&blind, &[]).fails(&["floor-lit", "highlight", "--camera auto", "--view", "--lambert"]);
+    let seeing = box_with("seeing.gltf", &|_| ());
+    ask(&seeing, &["--view", "0.3,-5,0.2,0.3,0,0.2,40"]).fails(&["behind the surface", "floor-lit", "--lambert"]);
+    let luminance = |run: Run| {
+        let document = run.json();
+        let receiver = &document["receivers"][0];
+        for variance in receiver["strategies"].as_object().expect("strategies").values() {
+            assert!(variance["variance_of_one"]["luminance"].as_f64().is_some_and(|v| v > 0.0), "{variance}");
+        }
+        receiver["irradiance"]["luminance"].as_f64().expect("a number")
+    };
+    let json = ["--format", "json"];
+    let diffuse = luminance(ask(&blind, &["--lambert", "--format", "json"]));
+    assert!((diffuse - luminance(ask(&scene("cornell-box"), &json))).abs() < 1e-12);
+    assert!(luminance(ask(&seeing, &json)) != diffuse);
+    let exr = folder.join("ratio.exr").display().to_string();
+    run(["render", &seeing, "--strategy", "ratio", "--spp", "1", "-o", &exr]).fails(&["ratio", "--lambert"]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use twoforms_geometry::blocking;
 use twoforms_geometry::geometry::Geometry;
 use twoforms_geometry::ray::Ray;
 use twoforms_geometry::tracer::Region;
-use twoforms_scene::{Scene, SceneError};
+use twoforms_scene::{Appearance, Scene, SceneError};
 
 /// What a scene is made of, and where, with the hierarchy built.
 pub struct World {
@@ -79,11 +79,29 @@ impl World {
         found
     }
 
+    /// What the surface is at a point that is seen: textures and vertex colours too.
+    pub fn appearance(&self, seen: &Seen) -> Appearance {
+        let triangle = self.geometry.mesh().triangle(seen.triangle);
+        self.scene.appearance_at(seen.triangle, triangle.barycentrics(seen.position))
+    }
+
+    /// ρ at a point that is seen, RGB.
+    pub fn albedo(&self, seen: &Seen) -> [f32; 3] {
+        if self.scene.is_uniform(seen.triangle) {
+            return self.scene.albedo(seen.triangle);
+        }
+        self.appearance(seen).albedo()
+    }
+
     /// L_e toward the eye from what is seen, RGB: black unless it is a light on a side that emits.
     pub fn emission(&self, seen: &Seen) -> [f32; 3] {
         let material = self.scene.material_of(seen.triangle);
         let lit = self.geometry.target_of(seen.triangle).is_some() && (seen.front || material.double_sided);
-        if lit { material.emission } else { [0.0; 3] }
+        match lit {
+            false => [0.0; 3],
+            true if material.emissive_texture.is_none() => material.emission,
+            true => self.appearance(seen).emission,
+        }
     }
 }
 

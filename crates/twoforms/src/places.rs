@@ -211,7 +211,7 @@ impl Finder<'_> {
     }
 
     fn radiance(&self, seen: &Seen) -> Quantity {
-        let albedo = self.world.scene.albedo(seen.triangle);
+        let albedo = self.world.albedo(seen);
         Quantity::Radiance { albedo, emission: self.world.emission(seen) }
     }
 }

@@ -112,6 +112,19 @@ impl<'a> Beam<'a> {
                 chunk.add(k, emission, 0);
             }
         }
+        self.receive(chunk, stage, pane)?;
+        if stage.surface.varies {
+            for k in chunk.that_meet(pane).collect::<Vec<_>>() {
+                let shown = self.painter.shown(&self.met(chunk, k, pane));
+                chunk.colour(k, shown.albedo);
+                chunk.add(k, shown.emission, 0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the light that the pane receives, wherever it is met.
+    fn receive(&self, chunk: &mut Chunk, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
         let Some(query) = &stage.surface.query else { return Ok(()) };
         if let Some(Lit { view, along }) = &stage.lit {
             let light = self.painter.light_samples();
@@ -120,7 +133,7 @@ impl<'a> Beam<'a> {
             return Ok(());
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
-            let seen = self.seen(pane as usize, DVec3::from_array(chunk.toward(k).map(f64::from)));
+            let seen = self.met(chunk, k, pane);
             let (value, rays) = self.painter.receive(&seen, query, chunk.stream(k)).map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
@@ -144,6 +157,11 @@ impl<'a> Beam<'a> {
     /// The point of a pane's plane in a direction from the eye, in its frame.
     fn seen(&self, pane: usize, toward: DVec3) -> Seen {
         self.faces[pane].seen(self.eye.to_world(toward))
+    }
+
+    /// The point of a pane that a camera sample meets.
+    fn met(&self, chunk: &Chunk, k: usize, pane: u32) -> Seen {
+        self.seen(pane as usize, DVec3::from_array(chunk.toward(k).map(f64::from)))
     }
 
     /// What lies at the centres of pixels.

@@ -41,10 +41,20 @@ struct Shaded {
 }
 
 /// What a surface adds to a camera sample by itself, and what is asked of the light that it receives; nothing where it
-/// reflects none.
+/// reflects none. One that is not the same all over is asked about as if it were white and dark: what it adds and how it
+/// colours what it receives is then told for each of its points, by [`Painter::shown`].
 pub(super) struct Surface<'w> {
     pub(super) emission: [f64; 3],
     pub(super) query: Option<Query<'w>>,
+    pub(super) varies: bool,
+}
+
+/// What a surface that is not the same all over is at one point.
+pub(super) struct Shown {
+    /// L_e toward the eye, RGB.
+    pub(super) emission: [f64; 3],
+    /// ρ, RGB.
+    pub(super) albedo: [f64; 3],
 }
 
 impl<'a> Painter<'a> {
@@ -120,20 +130,34 @@ impl<'a> Painter<'a> {
     /// What a surface shows of itself and asks of the light.
     pub(super) fn surface(&self, seen: &Seen) -> Surface<'a> {
         let Rendering { cull, radiance, .. } = *self.rendering;
-        let emission = if radiance { self.world.emission(seen) } else { [0.0; 3] };
+        let varies = radiance && !self.world.scene.is_uniform(seen.triangle);
+        let emission = if radiance && !varies { self.world.emission(seen) } else { [0.0; 3] };
         let material = self.world.scene.material_of(seen.triangle);
         let culled = cull && !seen.front && !material.double_sided;
         let black = culled || (radiance && material.albedo == [0.0; 3]);
         let lights = &self.world.lights;
-        let query = if radiance { Query::radiance(lights, material.albedo) } else { Query::irradiance(lights) };
-        Surface { emission: emission.map(f64::from), query: (!black).then_some(query) }
+        let albedo = if varies { [1.0; 3] } else { material.albedo };
+        let query = if radiance { Query::radiance(lights, albedo) } else { Query::irradiance(lights) };
+        Surface { emission: emission.map(f64::from), query: (!black).then_some(query), varies }
+    }
+
+    /// What a surface that is not the same all over is where it is seen.
+    pub(super) fn shown(&self, seen: &Seen) -> Shown {
+        let (emission, albedo) = (self.world.emission(seen), self.world.albedo(seen));
+        Shown { emission: emission.map(f64::from), albedo: albedo.map(f64::from) }
     }
 
     /// L_e of what is seen, plus what it reflects.
     fn shade(&self, seen: &Seen, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
-        let Surface { emission, query } = self.surface(seen);
-        let Some(query) = query else { return Ok(Shaded { value: emission, rays: 1 }) };
-        let (value, rays) = self.receive(seen, &query, stream)?;
+        let Surface { mut emission, query, varies } = self.surface(seen);
+        let (mut value, mut rays) = ([0.0; 3], 0);
+        if let Some(query) = query {
+            (value, rays) = self.receive(seen, &query, stream)?;
+        }
+        if varies {
+            let shown = self.shown(seen);
+            (emission, value) = (shown.emission, std::array::from_fn(|c| value[c] * shown.albedo[c]));
+        }
         Ok(Shaded { value: std::array::from_fn(|c| emission[c] + value[c]), rays: rays + 1 })
     }
 
@@ -191,7 +215,7 @@ impl<'a> Painter<'a> {
             position: round(seen.position),
             normal: round(seen.normal),
             depth: toward.dot(self.camera.forward) as f32,
-            albedo: self.world.scene.albedo(seen.triangle),
+            albedo: self.world.albedo(seen),
         }
     }
 }

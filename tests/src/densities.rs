@@ -1,7 +1,7 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    AreaOnLights, CosineHemisphere, Density, LuminanceOnLights, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
     TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use twoforms_estimator::measure::Measure;
@@ -38,6 +38,11 @@ pub fn visit<V: Visitor>(technique: Technique, query: &Query, view: &View, visit
         }
         Kind::AreaUniform => {
             let ready = AreaOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
+            visitor.visit(view, &density, &LightCells::new(view, &density.picker))
+        }
+        Kind::AreaLuminance => {
+            let ready = LuminanceOnLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::new(view, &density.picker))
         }

@@ -39,11 +39,9 @@ impl World {
     /// Builds the hierarchy.
     ///
     /// # Errors
-    /// When the scene has no light: there is nothing to estimate. And when a light emits by a texture: all that follows
-    /// takes the radiance of a light to be constant.
+    /// When the scene has no light: there is nothing to estimate.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         scene.require_emitters()?;
-        scene.require_constant_emission()?;
         let geometry = Geometry::new(scene.mesh.clone(), scene.targets.clone());
         let lights = Lights::new(&scene);
         Ok(Self { scene, geometry, lights })

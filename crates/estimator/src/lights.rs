@@ -1,15 +1,22 @@
 //! The lights of a scene, as estimators need them.
 
+use glam::DVec3;
 use twoforms_geometry::solid_angle::projected_solid_angle;
+use twoforms_geometry::target::{Shape, Sides};
 use twoforms_geometry::view::View;
-use twoforms_scene::Scene;
+use twoforms_scene::{Emission, Light, Pattern, Scene};
 
 use crate::rgb::luminance;
 
-/// What is constant over each target: its area, its radiance, and the light it belongs to.
+/// What is constant over each target: its area, its mean radiance, and the light it belongs to; and what is not, the radiance
+/// of those that emit by a texture.
 #[derive(Clone, Debug)]
 pub struct Lights {
     radiance: Vec<[f32; 3]>,
+    /// What leaves each target, if some emit by a texture; else none.
+    emission: Vec<Emission>,
+    sides: Vec<Sides>,
+    triangle: Vec<bool>,
     area: Vec<f64>,
     light: Vec<usize>,
     light_area: Vec<f64>,
@@ -21,7 +28,12 @@ impl Lights {
     pub fn new(scene: &Scene) -> Self {
         let targets = &scene.targets;
         let indices = 0..targets.len() as u32;
+        let textured = scene.lights.iter().any(Light::is_textured);
+        let looked_up = if textured { indices.clone() } else { 0..0 };
         Self {
+            emission: looked_up.map(|k| scene.target_emission(k)).collect(),
+            sides: targets.iter().map(|target| target.sides).collect(),
+            triangle: targets.iter().map(|target| matches!(target.shape, Shape::Triangle(_))).collect(),
             radiance: indices.clone().map(|k| scene.target_radiance(k)).collect(),
             area: targets.iter().map(|target| target.area(&scene.mesh)).collect(),
             light: indices.map(|k| scene.light_of(k)).collect(),
@@ -35,10 +47,45 @@ impl Lights {
         self.area.len()
     }
 
-    /// L_e of a target, RGB.
+    /// L_e of a target, RGB: its mean over the area where it emits by a texture.
     #[inline(always)]
     pub fn radiance(&self, target: u32) -> &[f32; 3] {
         &self.radiance[target as usize]
+    }
+
+    /// Whether some light emits by a texture.
+    #[inline(always)]
+    pub fn are_textured(&self) -> bool {
+        !self.emission.is_empty()
+    }
+
+    /// The texture that a target emits by, if it does.
+    pub fn pattern(&self, target: u32) -> Option<&Pattern> {
+        match self.emission.get(target as usize) {
+            Some(Emission::Textured(pattern)) => Some(pattern),
+            _ => None,
+        }
+    }
+
+    /// L_e at a point of a target (world, metres), RGB.
+    pub fn radiance_at(&self, target: u32, y: DVec3) -> [f32; 3] {
+        match self.emission.get(target as usize) {
+            Some(emission) => emission.at_point(y),
+            None => *self.radiance(target),
+        }
+    }
+
+    /// Whether a target is a triangle, and not a parallelogram.
+    pub fn is_triangle(&self, target: u32) -> bool {
+        self.triangle[target as usize]
+    }
+
+    /// How many sides of a target emit.
+    pub fn sides(&self, target: u32) -> f64 {
+        match self.sides[target as usize] {
+            Sides::Front => 1.0,
+            Sides::Both => 2.0,
+        }
     }
 
     /// Area of each target in square metres.

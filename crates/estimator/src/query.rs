@@ -1,10 +1,11 @@
 //! What is asked of the light at x.
 
+use glam::DVec3;
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::Real;
+use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::vector::Direction;
-use twoforms_geometry::view::View;
+use twoforms_geometry::view::{Vantage, View};
 
 use crate::lights::Lights;
 use crate::rgb::Rgb;
@@ -40,19 +41,20 @@ impl<'l> Query<'l> {
 
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x: what arrives from a point y that x sees, per solid angle.
     #[inline(always)]
-    pub fn received<R: Real>(&self, y: &SurfacePoint<R>, xy: &Segment<R>) -> Rgb<R> {
-        self.l_e(Masked::all(*y)) * self.f_r(xy.psi) * xy.cos_x
+    pub fn received<R: Real>(&self, from: &Vantage<R>, y: Masked<SurfacePoint<R>, R>, xy: &Segment<R>) -> Rgb<R> {
+        self.l_e(from, y) * self.f_r(xy.psi) * xy.cos_x
     }
 
     /// Luminance of L_e(y→−Ψ) f_r(x, Ψ↔Θ) G(x, y): what y would contribute per area were nothing in between.
     #[inline(always)]
-    pub fn unhidden<R: Real>(&self, y: &SurfacePoint<R>) -> R {
+    pub fn unhidden<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> R {
         let xy = Segment::to(y);
-        let light = self.l_e(Masked::new(*y, xy.facing())) * self.f_r(xy.psi) * xy.g();
+        let light = self.l_e(from, Masked::new(*y, xy.facing())) * self.f_r(xy.psi) * xy.g();
         light.or_black(xy.facing()).luminance()
     }
 
-    /// What x would receive were nothing in between: Σ_k L_k f_r ∫ cosθ_x dω over each target, RGB.
+    /// What x would receive were nothing in between: Σ_k L_k f_r ∫ cosθ_x dω over each target, RGB, with L_k the mean of L_e
+    /// over the target.
     pub fn unoccluded(&self, view: &View) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (k, open) in self.lights.unoccluded(view).into_iter().enumerate() {
@@ -62,9 +64,15 @@ impl<'l> Query<'l> {
         sum
     }
 
-    /// L_e(y→−Ψ), constant over a light; black where there is no y.
+    /// L_e(y→−Ψ), looked up at y where lights emit by textures; black where there is no y.
     #[inline(always)]
-    pub fn l_e<R: Real>(&self, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
+    pub fn l_e<R: Real>(&self, from: &Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
+        if self.lights.are_textured() { looked_up(self.lights, *from, y) } else { self.mean_l_e(y) }
+    }
+
+    /// The mean of L_e over the target that y lies on; black where there is no y.
+    #[inline(always)]
+    pub fn mean_l_e<R: Real>(&self, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
         let (y, some) = y.parts();
         let l_e = R::gather(
             y.target,
@@ -73,4 +81,41 @@ impl<'l> Query<'l> {
         );
         Rgb(l_e).or_black(some)
     }
+}
+
+/// Samples that lie side by side, at most.
+const MOST: usize = 16;
+
+/// L_e at each sample's own y, in binary64 up to the look-up; black where there is no y.
+#[cold]
+#[inline(never)]
+fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
+    R::apart(
+        #[inline(always)]
+        || {
+            let (y, some) = y.parts();
+            let (mut at, mut targets, mut wanted) = ([[0.0; MOST]; 3], [0; MOST], [0; MOST]);
+            for (axis, coordinate) in at.iter_mut().zip(from.from_x(y.position).to_array()) {
+                coordinate.store(axis);
+            }
+            y.target.store(&mut targets);
+            R::select_word(some, R::Word::splat(1), R::Word::splat(0)).store(&mut wanted);
+            let mut rgb = [[0.0; MOST]; 3];
+            for k in 0..R::LANES {
+                if wanted[k] != 0 {
+                    let l_e = at_one(lights, from.view(), targets[k], [at[0][k], at[1][k], at[2][k]]);
+                    for c in 0..3 {
+                        rgb[c][k] = l_e[c];
+                    }
+                }
+            }
+            Rgb([R::load(&rgb[0]), R::load(&rgb[1]), R::load(&rgb[2])])
+        },
+    )
+}
+
+/// L_e at a point of a target in the frame of x.
+fn at_one(lights: &Lights, view: &View, target: u32, y: [f32; 3]) -> [f32; 3] {
+    let frame = view.frame();
+    lights.radiance_at(target, frame.x() + frame.to_world(DVec3::from_array(y.map(f64::from))))
 }

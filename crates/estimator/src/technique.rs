@@ -8,7 +8,7 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
+    AreaOnLights, CosineHemisphere, Density, LuminanceOnLights, ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights,
     TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
 };
 use crate::estimator::{Estimator, Single};
@@ -149,6 +149,8 @@ techniques! {
     AreaSolidAngle: Area, SolidAngleOnLights = "area/solid-angle" @selection,
     /// Points on what rises above the horizon of the targets that face x, uniform in projected solid angle.
     AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
+    /// Points on the lights in proportion to the luminance that they emit, textures included.
+    AreaLuminance: Area, LuminanceOnLights = "area/luminance",
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

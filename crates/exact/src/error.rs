@@ -47,6 +47,23 @@ pub enum Error {
         /// How many cuts are tried before giving up.
         limit: usize,
     },
+    /// A texture that a target emits by shows more texels to the receiver than are worth computing.
+    #[error(
+        "what the receiver sees of target {target} shows more than {limit} texels of the texture that it emits by: reduce \
+         the image"
+    )]
+    TooManyTexels {
+        /// Which target.
+        target: u32,
+        /// How many pieces are tried before giving up.
+        limit: usize,
+    },
+    /// No formula is known here for the variance of this strategy where a light in sight emits by a texture.
+    #[error("no formula is known for its variance where light {light}, which the receiver sees, emits by a texture")]
+    Textured {
+        /// Which light.
+        light: usize,
+    },
     /// Cubature stopped at its limit of work with too large an error left.
     #[error("cubature did not converge: relative error {relative:.1e} after {cells} cells")]
     NotConverged {

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::glow::Glow;
 
 /// One emitter target in the receiver's local frame: x at the origin, its normal N_x along +Z,
 /// metres, binary64.
@@ -19,8 +20,10 @@ pub struct Facing {
     pub faces: bool,
     /// Area in m², once, whatever the sides.
     pub area: f64,
-    /// L_e toward x, linear RGB, W/(m² sr) or lm/(m² sr).
+    /// L_e toward x, linear RGB, W/(m² sr) or lm/(m² sr); its mean where the target emits by a texture.
     pub radiance: [f64; 3],
+    /// L_e toward x point by point, where the target emits by a texture.
+    pub glow: Option<Glow>,
     /// Triangles that may stand between x and the target, in the same frame. A triangle whose plane
     /// holds x, and one that is coplanar with the target, block nothing and must have been left
     /// out. The others may lie anywhere: behind the target or across its plane, below the horizon,

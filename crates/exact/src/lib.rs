@@ -18,6 +18,7 @@ pub mod error;
 pub mod facet;
 pub mod facing;
 pub mod gauss;
+pub mod glow;
 pub mod jittered;
 pub mod law;
 pub mod mis;
@@ -35,6 +36,7 @@ pub mod visible;
 
 pub use error::Error;
 pub use facing::{Facing, Light};
+pub use glow::Glow;
 pub use jittered::variance_of_jittered;
 pub use sight::Sight;
 pub use value::Value;

@@ -23,7 +23,7 @@ fn law(
     let area = sight.total_area();
     let mut law = Law { parts: Vec::new(), hidden: hidden.0, hidden_error: hidden.1 };
     for (index, seen) in sight.seen.iter().enumerate().filter(|(_, seen)| seen.is_visible()) {
-        law.parts.push(by_cubature(index, seen, |y| {
+        law.parts.extend(by_cubature(index, seen, |y| {
             let rho = seen.g(y) * (area / PI);
             [PI * value(rho), weight(rho) / area]
         })?);
@@ -109,8 +109,9 @@ impl Optimal {
     /// Integrates ρ over what x sees.
     ///
     /// # Errors
-    /// [`Error::NotConverged`].
+    /// [`Error::NotConverged`]; [`Error::Textured`].
     pub fn new(sight: &Sight) -> Result<Self, Error> {
+        sight.require_constant()?;
         let law = law(sight, (0.0, 0.0), |rho| rho / PI, |rho| 1.0 / (1.0 + rho))?;
         Ok(Self { law, area: missed_by_area(sight), hemisphere: missed_by_hemisphere(sight) })
     }

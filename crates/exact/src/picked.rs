@@ -63,26 +63,33 @@ pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> R
         law.hidden += share * hidden;
         law.hidden_error += share * error;
         if seen.is_visible() {
-            law.parts.push(scaled(part(index, seen, draw, method)?, share));
+            law.parts.extend(parts(index, seen, draw, method)?.into_iter().map(|part| scaled(part, share)));
         }
     }
     law.hidden_error += 4.0 * EPSILON * law.hidden;
     Ok(law)
 }
 
-fn part(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Part, Error> {
+fn parts(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Vec<Part>, Error> {
     let kept = &seen.cubatures;
+    let method = if seen.glow.is_some() { Method::Cubature } else { method };
     match (draw, method) {
-        (Draw::Uniform, Method::Edges) => Ok(spread::of_area(index, seen)),
+        (Draw::Uniform, Method::Edges) => Ok(vec![spread::of_area(index, seen)]),
         (Draw::Uniform, Method::Cubature) => {
             kept.area.get_or_init(|| spread::by_cubature(index, seen, |y| [seen.g(y), 1.0])).clone()
         }
-        (Draw::SolidAngle, Method::Edges) => Ok(spread::of_solid_angle(index, seen)),
+        (Draw::SolidAngle, Method::Edges) => Ok(vec![spread::of_solid_angle(index, seen)]),
         (Draw::SolidAngle, Method::Cubature) => {
             let by_cubature = || spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s));
             kept.solid_angle.get_or_init(by_cubature).clone()
         }
-        (Draw::ProjectedSolidAngle, _) => Ok(spread::of_projected_solid_angle(index, seen)),
+        (Draw::ProjectedSolidAngle, _) if seen.glow.is_none() => {
+            Ok(vec![spread::of_projected_solid_angle(index, seen)])
+        }
+        (Draw::ProjectedSolidAngle, _) => {
+            let by_cubature = || spread::by_cubature(index, seen, |y| [1.0, seen.g(y)]);
+            kept.projected_solid_angle.get_or_init(by_cubature).clone()
+        }
     }
 }
 
@@ -97,6 +104,7 @@ fn cos_x_and_d_omega(y: DVec3, s: f64) -> [f64; 2] {
 fn scaled(part: Part, share: f64) -> Part {
     Part {
         seen: part.seen,
+        channel: part.channel,
         mass: part.mass * share,
         mean: part.mean / share,
         spread: part.spread / share,

@@ -7,6 +7,7 @@ use twoforms_geometry::view::{Need, Prospect, Standing, prospects};
 
 use crate::error::Error;
 use crate::facing::{Facing, Light};
+use crate::glow::Glow;
 use crate::moved::Motion;
 use crate::sight::Sight;
 
@@ -80,6 +81,7 @@ impl Gathering<'_> {
         Facing {
             target,
             light: self.lights.light_of_target()[index] as u32,
+            glow: self.lights.pattern(target).map(|pattern| Glow::new(pattern, &corners, self.f_r)),
             corners,
             faces: true,
             area: self.lights.areas()[index] * self.growth,

@@ -13,11 +13,25 @@ use crate::value::EPSILON;
 
 /// ∫ w dA, the mean of u under w dA, and ∫ (u − mean)² w dA over the visible part, where `f` gives
 /// \[u, w\] at a point y of the light. Centred, so that a nearly constant u keeps the digits of its
-/// spread.
+/// spread. Where the facet emits by a texture, u times the radiance in each channel.
 ///
 /// # Errors
 /// [`Error::NotConverged`].
-pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+    let Some(glow) = &seen.glow else {
+        return Ok(vec![of_function(index, seen, f)?]);
+    };
+    let in_channel = |channel: usize| {
+        let scaled = |y: DVec3| {
+            let [u, w] = f(y);
+            [glow.at(y)[channel] * u, w]
+        };
+        of_function(index, seen, scaled).map(|part| Part { channel: Some(channel), ..part })
+    };
+    (0..4).map(in_channel).collect()
+}
+
+fn of_function(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
@@ -49,6 +63,7 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
     let size = (second * (second + centre * centre * mass)).sqrt();
     Ok(Part {
         seen: index,
+        channel: None,
         mass,
         mean: centre + shift,
         spread,
@@ -95,6 +110,7 @@ fn closed(
     let mean = first / mass;
     Part {
         seen,
+        channel: None,
         mass,
         mean,
         spread: second - first * mean,

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use crate::error::Error;
 use crate::law::{Colours, Law, Outcome};
 use crate::mis::{self, Optimal};
-use crate::moments::Moments;
 use crate::picked::{self, Draw, Method};
 use crate::seen::Seen;
 use crate::sight::Sight;
@@ -20,7 +19,8 @@ const TOO_ROUGH: f64 = 1e-9;
 /// The channel of the luminance, after red, green and blue.
 const LUMINANCE: usize = 3;
 
-/// Whether the variance of a strategy is known here: by a closed form or by cubature.
+/// Whether the variance of a strategy is known here: by a closed form or by cubature. Where lights emit by textures, fewer
+/// are: see [`Error::Textured`].
 pub fn has_formula(strategy: Strategy) -> bool {
     match strategy {
         Strategy::Single(technique) => technique.kind != Kind::HemisphereTowardLightsMarginal,
@@ -66,12 +66,16 @@ impl Sight {
 
     fn of_technique(&self, Technique { kind, selection }: Technique) -> Result<Value, Error> {
         match kind {
-            Kind::HemisphereUniform => Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2]))),
-            Kind::HemisphereCosine => Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1]))),
+            Kind::HemisphereUniform => self.over_hemisphere(2.0 * PI, 2),
+            Kind::HemisphereCosine => self.over_hemisphere(PI, 1),
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
             Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
+            // Of constant radiances, the density of area/uniform@power.
+            Kind::AreaLuminance => {
+                self.require_constant().and_then(|()| self.over_lights(Draw::Uniform, Selection::Power))
+            }
         }
     }
 
@@ -80,25 +84,30 @@ impl Sight {
         strategies.iter().map(|&strategy| (strategy, self.variance(strategy))).collect()
     }
 
-    /// w = c L a or c L with E[w²] = c Σ L² M: c = 2π with M_20 for p = 1/2π, c = π with M_10 for p
-    /// = cosθ_x/π.
-    fn over_hemisphere(&self, c: f64, moment: impl Fn(&Moments) -> (f64, f64)) -> Value {
-        let colours = self.colours();
-        Value::of_outcomes(|channel| {
+    /// Refuses lights in sight that emit by a texture.
+    pub(crate) fn require_constant(&self) -> Result<(), Error> {
+        let textured = self.seen.iter().find(|seen| seen.glow.is_some() && seen.is_visible());
+        textured.map_or(Ok(()), |seen| Err(Error::Textured { light: seen.light }))
+    }
+
+    /// w = c L a or c L with E[w²] = c Σ ∫ L² aᵏ dω: c = 2π and k = 2 for p = 1/2π, c = π and k = 1 for
+    /// p = cosθ_x/π.
+    fn over_hemisphere(&self, c: f64, k: usize) -> Result<Value, Error> {
+        let squared = self.seen.iter().map(|seen| seen.squared(k)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Value::of_outcomes(|channel| {
             let mut outcome = Outcome::default();
             let (mut second, mut second_error) = (0.0, 0.0);
-            for (seen, colour) in self.seen.iter().zip(&colours.0) {
-                let radiance = colour[channel];
-                let (moment, error) = moment(&seen.moments);
-                outcome.mean += radiance * seen.moments.m10;
-                outcome.mean_error += radiance * seen.moments.errors[1];
-                second += c * radiance * radiance * moment;
-                second_error += c * radiance * radiance * error;
+            for (seen, squared) in self.seen.iter().zip(&squared) {
+                let [mean, mean_error] = seen.in_channel(channel);
+                outcome.mean += mean;
+                outcome.mean_error += mean_error;
+                second += c * squared[channel][0];
+                second_error += c * squared[channel][1];
             }
             outcome.variance = second - outcome.mean * outcome.mean;
             outcome.error = second_error + 2.0 * outcome.mean * outcome.mean_error + 8.0 * EPSILON * second;
             outcome
-        })
+        }))
     }
 
     fn over_lights(&self, draw: Draw, selection: Selection) -> Result<Value, Error> {
@@ -108,7 +117,7 @@ impl Sight {
             return Ok(by_edges);
         }
         let law = picked::law(self, draw, selection, Method::Cubature)?;
-        self.consistent(law.outcome(|seen| colours.0[seen][LUMINANCE]))?;
+        self.consistent(law.outcome(&colours, LUMINANCE))?;
         let by_cubature = law.variance(&colours);
         Ok(if by_cubature.error_bound < by_edges.error_bound { by_cubature } else { by_edges })
     }
@@ -117,7 +126,7 @@ impl Sight {
     fn sum_of_laws(&self, laws: &[Law]) -> Result<Value, Error> {
         let colours = self.colours();
         let sum = |channel: usize| {
-            let outcomes = laws.iter().map(|law| law.outcome(|seen| colours.0[seen][channel]));
+            let outcomes = laws.iter().map(|law| law.outcome(&colours, channel));
             outcomes.fold(Outcome::default(), |sum, o| Outcome {
                 mean: sum.mean + o.mean,
                 mean_error: sum.mean_error + o.mean_error,

@@ -3,6 +3,7 @@
 //! I = Σ_i Σ_k w_i(X_ik) f(X_ik) / (n_i p_i(X_ik)), densities per solid angle at the point y of a light that x sees. A technique
 //! that cannot come upon y has density zero there.
 
+use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::view::{Vantage, View};
 
@@ -72,7 +73,7 @@ impl Mis<'_> {
             let pdf = if k == i { found.pdf } else { technique.pdf_of(&from.only(found.seen), &found.y, &found.xy) };
             q[k] = pdf * R::splat(*n as f32);
         }
-        let f = self.query.received(&found.y, &found.xy);
+        let f = self.query.received(from, Masked::new(found.y, found.seen), &found.xy);
         let value = match self.weighting {
             Weighting::Optimal => self.residual(f, &q),
             weighting => f * weighting.over(&q[..self.team.len()], i),

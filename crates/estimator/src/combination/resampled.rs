@@ -70,7 +70,7 @@ impl Primary for Resampled<'_> {
         let mut kept = Reservoir::empty(drawn.xi::<R>(self.candidates as usize).v());
         for k in 0..self.candidates as usize {
             let (Sample { at: y, pdf }, some) = self.density.sample(from, drawn.xi(k)).parts();
-            let target = self.query.unhidden(&y);
+            let target = self.query.unhidden(from, &y);
             let counts = some & R::zero().lt(target);
             kept.offer(&y, target, R::select(counts, target / pdf.value(), R::zero()));
         }

@@ -3,6 +3,7 @@
 mod along;
 mod hemisphere;
 mod lights;
+mod luminance;
 mod one_target;
 mod projected_solid_angle;
 mod sector;
@@ -12,6 +13,7 @@ mod toward;
 
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Spread};
+pub use luminance::{ByLuminance, LuminanceOnLights};
 pub use one_target::OnOneTarget;
 pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLights};
 pub use sector::{Sector, sectors};

@@ -40,6 +40,15 @@ impl<'v, R: Real> Vantage<'v, R> {
         self.view
     }
 
+    /// A position said from where its sample looks from, said from x.
+    #[inline(always)]
+    pub fn from_x(&self, position: Vector<R>) -> Vector<R> {
+        match self.start {
+            Some(start) => start + position,
+            None => position,
+        }
+    }
+
     /// The targets as samples meet them, by each sample's index.
     #[inline(always)]
     pub fn facet(&self, target: R::Word) -> Facet<R> {

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use twoforms_estimator::lights::Lights;
 use twoforms_geometry::blocking;
-use twoforms_geometry::geometry::Geometry;
-use twoforms_geometry::ray::Ray;
+use twoforms_geometry::geometry::{Geometry, Layer};
+use twoforms_geometry::ray::{Hit, Ray};
 use twoforms_geometry::tracer::Region;
 use twoforms_scene::{Appearance, Scene, SceneError};
 
@@ -42,18 +42,36 @@ impl World {
     /// When the scene has no light: there is nothing to estimate.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         scene.require_emitters()?;
-        let geometry = Geometry::new(scene.mesh.clone(), scene.targets.clone());
+        let geometry = Geometry::new(scene.mesh.clone(), scene.targets.clone()).with_veil(scene.veil());
         let lights = Lights::new(&scene);
         Ok(Self { scene, geometry, lights })
     }
 
-    /// The first surface along a ray.
+    /// The first surface along a ray, blended or not.
     pub fn see(&self, ray: &Ray) -> Option<Seen> {
-        let hit = self.geometry.vp(ray)?;
+        let hit =
+            if self.geometry.is_veiled() { self.geometry.layers(ray).first()?.hit } else { self.geometry.vp(ray)? };
+        Some(self.seen(ray, hit))
+    }
+
+    /// The surfaces along a ray up to the first that is opaque, and how much each adds to what is seen: α_i Π_{j < i} (1 − α_j).
+    pub fn see_through(&self, ray: &Ray) -> Vec<(Seen, f64)> {
+        let mut left = 1.0;
+        let layers = self.geometry.layers(ray).into_iter();
+        layers
+            .map(|Layer { hit, share }| {
+                let weight = left * f64::from(share);
+                left -= weight;
+                (self.seen(ray, hit), weight)
+            })
+            .collect()
+    }
+
+    fn seen(&self, ray: &Ray, hit: Hit) -> Seen {
         let cross = self.geometry.mesh().triangle(hit.triangle).cross().normalize();
         let front = cross.dot(ray.direction) < 0.0;
         let normal = if front { cross } else { -cross };
-        Some(Seen { position: ray.at(hit.t), normal, distance: hit.t, triangle: hit.triangle, front })
+        Seen { position: ray.at(hit.t), normal, distance: hit.t, triangle: hit.triangle, front }
     }
 
     /// The surface that holds `position` and faces along `normal`, as seen from that side: one whose plane holds the

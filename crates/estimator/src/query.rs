@@ -64,10 +64,11 @@ impl<'l> Query<'l> {
         sum
     }
 
-    /// L_e(y→−Ψ), looked up at y where lights emit by textures; black where there is no y.
+    /// L_e(y→−Ψ), looked up at y where lights emit by textures, times what passes surfaces in between that are not opaque; black
+    /// where there is no y.
     #[inline(always)]
     pub fn l_e<R: Real>(&self, from: &Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
-        if self.lights.are_textured() { looked_up(self.lights, *from, y) } else { self.mean_l_e(y) }
+        if self.lights.vary() { looked_up(self.lights, *from, y) } else { self.mean_l_e(y) }
     }
 
     /// The mean of L_e over the target that y lies on; black where there is no y.
@@ -86,7 +87,7 @@ impl<'l> Query<'l> {
 /// Samples that lie side by side, at most.
 const MOST: usize = 16;
 
-/// L_e at each sample's own y, in binary64 up to the look-up; black where there is no y.
+/// L_e at each sample's own y and what passes of it, in binary64 up to the look-up; black where there is no y.
 #[cold]
 #[inline(never)]
 fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
@@ -94,16 +95,20 @@ fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<
         #[inline(always)]
         || {
             let (y, some) = y.parts();
-            let (mut at, mut targets, mut wanted) = ([[0.0; MOST]; 3], [0; MOST], [0; MOST]);
-            for (axis, coordinate) in at.iter_mut().zip(from.from_x(y.position).to_array()) {
-                coordinate.store(axis);
+            let (start, toward) = (from.start().to_array(), y.position.to_array());
+            let (mut starts, mut ways) = ([[0.0; MOST]; 3], [[0.0; MOST]; 3]);
+            for c in 0..3 {
+                start[c].store(&mut starts[c]);
+                toward[c].store(&mut ways[c]);
             }
+            let (mut targets, mut wanted) = ([0; MOST], [0; MOST]);
             y.target.store(&mut targets);
             R::select_word(some, R::Word::splat(1), R::Word::splat(0)).store(&mut wanted);
             let mut rgb = [[0.0; MOST]; 3];
             for k in 0..R::LANES {
                 if wanted[k] != 0 {
-                    let l_e = at_one(lights, from.view(), targets[k], [at[0][k], at[1][k], at[2][k]]);
+                    let start = [starts[0][k], starts[1][k], starts[2][k]];
+                    let l_e = arriving(lights, from.view(), targets[k], start, [ways[0][k], ways[1][k], ways[2][k]]);
                     for c in 0..3 {
                         rgb[c][k] = l_e[c];
                     }
@@ -114,8 +119,14 @@ fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<
     )
 }
 
-/// L_e at a point of a target in the frame of x.
-fn at_one(lights: &Lights, view: &View, target: u32, y: [f32; 3]) -> [f32; 3] {
+/// What arrives at `start` from the point of a target that lies `toward` from there, in the frame of x.
+fn arriving(lights: &Lights, view: &View, target: u32, start: [f32; 3], toward: [f32; 3]) -> [f32; 3] {
+    let [from, way] = [start, toward].map(|v| DVec3::from_array(v.map(f64::from)));
     let frame = view.frame();
-    lights.radiance_at(target, frame.x() + frame.to_world(DVec3::from_array(y.map(f64::from))))
+    let l_e = lights.radiance_at(target, frame.x() + frame.to_world(from + way));
+    if !view.geometry().is_veiled() {
+        return l_e;
+    }
+    let passing = view.passing(start, toward, target) as f32;
+    l_e.map(|channel| channel * passing)
 }

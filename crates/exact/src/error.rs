@@ -58,11 +58,14 @@ pub enum Error {
         /// How many pieces are tried before giving up.
         limit: usize,
     },
-    /// No formula is known here for the variance of this strategy where a light in sight emits by a texture.
-    #[error("no formula is known for its variance where light {light}, which the receiver sees, emits by a texture")]
-    Textured {
-        /// Which light.
-        light: usize,
+    /// What is not opaque stands between the receiver and a target, or the target itself is cut out.
+    #[error(
+        "the receiver sees target {target}, or might, through a surface that is cut out or blended, or that target is cut out \
+         itself: only sampling tells what arrives"
+    )]
+    Veiled {
+        /// Which target.
+        target: u32,
     },
     /// Cubature stopped at its limit of work with too large an error left.
     #[error("cubature did not converge: relative error {relative:.1e} after {cells} cells")]

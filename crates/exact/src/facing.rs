@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::glow::Glow;
+use crate::seen::Seen;
 
 /// One emitter target in the receiver's local frame: x at the origin, its normal N_x along +Z,
 /// metres, binary64.
@@ -41,6 +42,12 @@ pub struct Light {
 }
 
 impl Facing {
+    /// Whether one of these triangles stands before some of it, were nothing else in between.
+    pub(crate) fn is_veiled(&self, veils: Vec<[DVec3; 3]>) -> Result<bool, Error> {
+        let seen = Seen::facets(&Self { blockers: veils, glow: None, ..self.clone() })?;
+        Ok(seen.iter().any(|seen| seen.blocked))
+    }
+
     /// Refuses numbers that are not finite and lights that do not exist.
     pub(crate) fn check(&self, lights: usize) -> Result<(), Error> {
         let points = self.corners.iter().chain(self.blockers.iter().flatten());

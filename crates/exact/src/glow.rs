@@ -1,6 +1,9 @@
 //! A target that emits by a texture, as x meets it.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
+use twoforms_estimator::cells::Cells;
 use twoforms_estimator::rgb::luminance;
 use twoforms_scene::Pattern;
 
@@ -23,18 +26,22 @@ pub struct Glow {
     place: DVec2,
     /// Change of the two coordinates in the grid per metre.
     slopes: [DVec3; 2],
+    /// Change of the coordinates along the sides from that corner per metre.
+    duals: [DVec3; 2],
+    cells: Arc<Cells>,
 }
 
 impl Glow {
     /// The texture of a target that has these corners in the frame of x, times `f_r` (RGB).
-    pub fn new(pattern: &Pattern, corners: &[DVec3], f_r: [f64; 3]) -> Self {
+    pub fn new(pattern: &Pattern, cells: &Arc<Cells>, corners: &[DVec3], f_r: [f64; 3]) -> Self {
         let (corner, last) = (corners[0], corners[corners.len() - 1]);
         let [e, f] = [corners[1] - corner, last - corner];
         let normal = e.cross(f);
         let [along_e, along_f] = [f.cross(normal), normal.cross(e)].map(|dual| dual / normal.length_squared());
         let [place, next, previous] = pattern.corners_in_grid();
         let slope = |axis: usize| along_e * (next - place)[axis] + along_f * (previous - place)[axis];
-        Self { pattern: Box::new(pattern.clone()), f_r, corner, place, slopes: [slope(0), slope(1)] }
+        let (slopes, duals) = ([slope(0), slope(1)], [along_e, along_f]);
+        Self { pattern: Box::new(pattern.clone()), f_r, corner, place, slopes, duals, cells: cells.clone() }
     }
 
     /// L_e f_r at a point of the target: red, green, blue, luminance.
@@ -48,6 +55,39 @@ impl Glow {
     pub fn slack(&self, reach: f64) -> f64 {
         let steepest = self.slopes[0].length().max(self.slopes[1].length());
         8.0 * EPSILON * (reach * steepest + self.place.abs().max_element())
+    }
+
+    /// Luminance times sides that the cell of y emits: what points are drawn in proportion to by `area/luminance`.
+    pub fn emitted(&self, y: DVec3) -> f64 {
+        self.cells.value(self.duals.map(|dual| dual.dot(y - self.corner)))
+    }
+
+    /// The mean of that over the target.
+    pub fn mean_emitted(&self) -> f64 {
+        self.cells.mean_value()
+    }
+
+    /// The pieces, cut along the lines between those cells.
+    ///
+    /// # Errors
+    /// [`Error::TooManyTexels`].
+    pub fn cut_in_cells(&self, pieces: &Pieces, target: u32) -> Result<Pieces, Error> {
+        let lines = self.cells.lines();
+        let mut cut = Pieces::default();
+        for polygon in pieces.iter() {
+            let mut parts = vec![polygon.to_vec()];
+            for &[h0, h1, h2] in &lines {
+                let height = |y: DVec3| h0 + (self.duals[0] * h1 + self.duals[1] * h2).dot(y - self.corner);
+                parts = parts.iter().flat_map(|part| separated(part, height)).collect();
+            }
+            for part in &parts {
+                cut.push(part);
+            }
+            if cut.len() > MOST {
+                return Err(Error::TooManyTexels { target, limit: MOST });
+            }
+        }
+        Ok(cut)
     }
 
     fn place(&self, y: DVec3) -> DVec2 {
@@ -95,6 +135,13 @@ impl Glow {
         strips.push(rest);
         Ok(())
     }
+}
+
+/// A convex polygon, in two parts where a linear function changes its sign on it.
+fn separated(polygon: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<Vec<DVec3>> {
+    let signs = polygon.iter().map(|&y| height(y));
+    let (low, high) = signs.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+    if low < 0.0 && high > 0.0 { halves(polygon, height).to_vec() } else { vec![polygon.to_vec()] }
 }
 
 /// The parts of a convex polygon where a linear function is not positive, and where it is not negative.

@@ -7,7 +7,8 @@
 use std::f64::consts::PI;
 
 use crate::error::Error;
-use crate::law::{Law, Outcome, Part};
+use crate::law::{Colours, Law, Outcome, Part};
+use crate::seen::Seen;
 use crate::sight::Sight;
 use crate::spread::by_cubature;
 use crate::value::EPSILON;
@@ -20,9 +21,20 @@ fn law(
     value: impl Fn(f64) -> f64,
     weight: impl Fn(f64) -> f64,
 ) -> Result<Law, Error> {
+    law_of(sight, |_| true, hidden, value, weight)
+}
+
+/// The same over some facets alone.
+fn law_of(
+    sight: &Sight,
+    taken: impl Fn(&Seen) -> bool,
+    hidden: (f64, f64),
+    value: impl Fn(f64) -> f64,
+    weight: impl Fn(f64) -> f64,
+) -> Result<Law, Error> {
     let area = sight.total_area();
     let mut law = Law { parts: Vec::new(), hidden: hidden.0, hidden_error: hidden.1 };
-    for (index, seen) in sight.seen.iter().enumerate().filter(|(_, seen)| seen.is_visible()) {
+    for (index, seen) in sight.seen.iter().enumerate().filter(|(_, seen)| seen.is_visible() && taken(seen)) {
         law.parts.extend(by_cubature(index, seen, |y| {
             let rho = seen.g(y) * (area / PI);
             [PI * value(rho), weight(rho) / area]
@@ -101,25 +113,52 @@ pub struct Optimal {
     /// ρ under p_a/(1 + ρ) = p_a²/c on every facet: mean, spread and mass give ∫ p_a²/c, ∫ p_a
     /// p_h/c and ∫ p_h²/c.
     law: Law,
+    /// The facets that emit by a texture, for each channel.
+    woven: Vec<[Woven; 4]>,
     area: (f64, f64),
     hemisphere: (f64, f64),
+}
+
+/// ∫ {1, ρ, ρ², lρ, lρ², l²ρ²} p_a/(1 + ρ) on a facet that emits by a texture, l = π L in one channel, with bounds of the errors.
+#[derive(Clone, Copy, Debug)]
+struct Woven {
+    value: [f64; 6],
+    error: [f64; 6],
+}
+
+impl Woven {
+    fn all(seen: &Seen, area: f64) -> Result<Option<[Self; 4]>, Error> {
+        let of = |channel: usize| {
+            seen.by_texture(channel, |y, radiance| {
+                let (rho, l) = (seen.g(y) * (area / PI), PI * radiance);
+                let w = 1.0 / (area * (1.0 + rho));
+                let (rho_w, l_rho) = (rho * w, l * rho);
+                [w, rho_w, rho * rho_w, l * rho_w, l_rho * rho_w, l_rho * l_rho * w]
+            })
+        };
+        let all = (0..4).map(of).collect::<Result<Option<Vec<_>>, _>>()?;
+        Ok(all.map(|all| std::array::from_fn(|c| Self { value: all[c].value, error: all[c].error })))
+    }
 }
 
 impl Optimal {
     /// Integrates ρ over what x sees.
     ///
     /// # Errors
-    /// [`Error::NotConverged`]; [`Error::Textured`].
+    /// [`Error::NotConverged`].
     pub fn new(sight: &Sight) -> Result<Self, Error> {
-        sight.require_constant()?;
-        let law = law(sight, (0.0, 0.0), |rho| rho / PI, |rho| 1.0 / (1.0 + rho))?;
-        Ok(Self { law, area: missed_by_area(sight), hemisphere: missed_by_hemisphere(sight) })
+        let constant = |seen: &Seen| seen.glow.is_none();
+        let law = law_of(sight, constant, (0.0, 0.0), |rho| rho / PI, |rho| 1.0 / (1.0 + rho))?;
+        let visible = sight.seen.iter().filter(|seen| seen.is_visible());
+        let woven = visible.filter_map(|seen| Woven::all(seen, sight.total_area()).transpose());
+        let woven = woven.collect::<Result<_, _>>()?;
+        Ok(Self { law, woven, area: missed_by_area(sight), hemisphere: missed_by_hemisphere(sight) })
     }
 
     /// Variance of the pair's sum and its mean. On the facets F = L π p_h = L π ρ p_a; where a
     /// light's point is hidden only p_a is not zero, where a direction misses only p_h.
-    pub fn outcome(&self, radiance: impl Fn(usize) -> f64) -> Outcome {
-        let (alpha, mean) = self.alpha(&radiance);
+    pub fn outcome(&self, colours: &Colours, channel: usize) -> Outcome {
+        let (alpha, mean) = self.alpha(colours, channel);
         let [alpha_a, alpha_h] = alpha;
         let mut outcome = Outcome {
             mean,
@@ -128,19 +167,22 @@ impl Optimal {
             error: alpha_a * alpha_a * self.area.1 + alpha_h * alpha_h * self.hemisphere.1,
         };
         for part in &self.law.parts {
-            outcome.add_residual(part, PI * radiance(part.seen) - alpha_h, alpha_a);
+            outcome.add_residual(part, PI * colours.0[part.seen][channel] - alpha_h, alpha_a);
+        }
+        for woven in &self.woven {
+            outcome.add_woven(&woven[channel], alpha);
         }
         outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
         outcome
     }
 
     /// α, [area, hemisphere], and the mean.
-    pub fn alpha(&self, radiance: impl Fn(usize) -> f64) -> ([f64; 2], f64) {
+    pub fn alpha(&self, colours: &Colours, channel: usize) -> ([f64; 2], f64) {
         let mut matrix = [self.area.0, 0.0, self.hemisphere.0];
         let mut b = [0.0; 2];
         let mut mean = 0.0;
         for part in &self.law.parts {
-            let l_pi = PI * radiance(part.seen);
+            let l_pi = PI * colours.0[part.seen][channel];
             let (a_h, h_h) = (part.mass * part.mean, part.spread + part.mass * part.mean * part.mean);
             matrix[0] += part.mass;
             matrix[1] += a_h;
@@ -149,11 +191,28 @@ impl Optimal {
             b[1] += l_pi * h_h;
             mean += l_pi * (a_h + h_h);
         }
+        for woven in &self.woven {
+            let [a_a, a_h, h_h, b_a, b_h, _] = woven[channel].value;
+            matrix = [matrix[0] + a_a, matrix[1] + a_h, matrix[2] + h_h];
+            b = [b[0] + b_a, b[1] + b_h];
+            mean += b_a + b_h;
+        }
         (solve(matrix, b), mean)
     }
 }
 
 impl Outcome {
+    /// ∫ (l ρ − α_a − α_h ρ)² p_a/(1 + ρ) on one facet, l varying over it.
+    fn add_woven(&mut self, woven: &Woven, [alpha_a, alpha_h]: [f64; 2]) {
+        let factors =
+            [alpha_a * alpha_a, 2.0 * alpha_a * alpha_h, alpha_h * alpha_h, -2.0 * alpha_a, -2.0 * alpha_h, 1.0];
+        for (k, factor) in factors.into_iter().enumerate() {
+            self.variance += factor * woven.value[k];
+            self.error += factor.abs() * woven.error[k];
+        }
+        self.mean_error += woven.error[3] + woven.error[4];
+    }
+
     /// ∫ (k ρ − α_a)² p_a/(1 + ρ) on one facet, k = L π − α_h.
     fn add_residual(&mut self, part: &Part, k: f64, alpha_a: f64) {
         let at_mean = k * part.mean - alpha_a;

@@ -1,8 +1,11 @@
 //! Estimators that draw a point on the lights, after picking a light or over all together.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::glow::Glow;
 use crate::law::{Law, Part};
 use crate::seen::Seen;
 use crate::sight::Sight;
@@ -68,6 +71,45 @@ pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> R
     }
     law.hidden_error += 4.0 * EPSILON * law.hidden;
     Ok(law)
+}
+
+/// The law of one sample of `area/luminance`: p(y) = Y(y)/Φ, with Y the luminance times sides that the cell of y emits, and Φ
+/// the integral of Y over all lights; w = L g Φ/Y.
+///
+/// # Errors
+/// [`Error::NotConverged`]; [`Error::TooManyTexels`].
+pub fn by_luminance(sight: &Sight) -> Result<Law, Error> {
+    let total = sight.lights.iter().map(|light| light.power).sum::<f64>() / PI;
+    let mut law = Law::default();
+    let mut listed = 0.0;
+    for (index, seen) in sight.seen.iter().enumerate() {
+        let light = &sight.lights[seen.light];
+        let whole = seen.area * seen.glow.as_ref().map_or_else(|| light.power / (PI * light.area), Glow::mean_emitted);
+        listed += whole;
+        let parts = match &seen.glow {
+            _ if !seen.is_visible() => Vec::new(),
+            None => vec![scaled(constant(index, seen)?, whole / seen.area / total)],
+            Some(glow) => spread::by_cells(index, seen, glow, total)?,
+        };
+        let partial = seen.blocked || seen.clipped;
+        if partial || parts.is_empty() {
+            let mass = parts.first().map_or((0.0, 0.0), |part| (part.mass, part.mass_error));
+            law.hidden += whole / total - mass.0;
+            law.hidden_error += mass.1;
+        }
+        law.parts.extend(parts);
+    }
+    let rest = total - listed;
+    let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64;
+    law.hidden += if rest.abs() <= rounding * total { 0.0 } else { rest / total };
+    law.hidden_error += 4.0 * EPSILON * law.hidden + rounding;
+    Ok(law)
+}
+
+/// g under dA of a facet of one radiance.
+fn constant(index: usize, seen: &Seen) -> Result<Part, Error> {
+    let parts = parts(index, seen, Draw::Uniform, Method::Cubature)?;
+    Ok(parts[0])
 }
 
 fn parts(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Vec<Part>, Error> {

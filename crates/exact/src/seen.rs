@@ -23,6 +23,8 @@ const TOO_ROUGH: f64 = 1e-11;
 /// A facet that emits toward x.
 #[derive(Clone, Debug)]
 pub struct Seen {
+    /// The target's number in the scene, for messages.
+    pub target: u32,
     /// The light it belongs to.
     pub light: usize,
     /// L_e toward x, linear RGB; its mean over the target where that emits by a texture.
@@ -105,6 +107,7 @@ impl Seen {
         let whole_solid_angle = if clipped { solid_angle_of(&facet.corners) } else { open.solid_angle };
         let visible_area = if blocked || clipped { area * (moments.area / facet.area) } else { area };
         Ok(Self {
+            target: facing.target,
             light: facing.light as usize,
             radiance: facing.radiance,
             luminance: luminance(facing.radiance),
@@ -146,6 +149,20 @@ impl Seen {
         Ok(from_fn(|c| [sum.value[c], sum.error[c]]))
     }
 
+    /// ∫ f dA over what x sees of a facet that emits by a texture, f >= 0 a function of y and of the radiance in one channel, with
+    /// bounds of all errors; none where it emits by one radiance.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub(crate) fn by_texture<const K: usize>(
+        &self,
+        channel: usize,
+        f: impl Fn(DVec3, f64) -> [f64; K],
+    ) -> Result<Option<Integral<K>>, Error> {
+        let Some(glow) = &self.glow else { return Ok(None) };
+        textured(glow, &self.pieces, &self.facet, &self.moments, |y| f(y, glow.at(y)[channel])).map(Some)
+    }
+
     /// What x receives from it in one channel: red, green, blue, luminance.
     pub fn in_channel(&self, channel: usize) -> [f64; 2] {
         let [Received { rgb, error }, _] = self.received;
@@ -185,23 +202,20 @@ impl Received {
     }
 }
 
-/// ∫ f dA over pieces that are cut along the texels, f a function of the radiance there, with bounds of all errors.
-fn textured(
+/// ∫ f dA over pieces that are cut along the texels, f >= 0 a function of the radiance there, with bounds of all errors.
+fn textured<const K: usize>(
     glow: &Glow,
     pieces: &Pieces,
     facet: &Facet,
     moments: &Moments,
-    f: impl Fn(DVec3) -> [f64; 4],
-) -> Result<Integral<4>, Error> {
+    f: impl Fn(DVec3) -> [f64; K],
+) -> Result<Integral<K>, Error> {
     let slack = slack(facet, moments.solid_angle, moments.m10) + glow.slack(facet.reach);
     let relative = (0.1 * slack).clamp(1e-12, 1.0);
-    let mut sum = integrate(pieces, &f, |total| {
-        let most = total.iter().copied().fold(0.0, f64::max);
-        total.map(|_| relative * most)
-    })?;
+    let mut sum = integrate(pieces, &f, |total| total.map(|value| relative * value + f64::MIN_POSITIVE))?;
     let outline = line_integral(pieces, &f);
-    for k in 0..4 {
-        sum.error[k] += moments.shift * outline[k] + 2.0 * slack * sum.value[k];
+    for k in 0..K {
+        sum.error[k] += moments.shift * outline[k] + 4.0 * slack * sum.value[k];
     }
     Ok(sum)
 }

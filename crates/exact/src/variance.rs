@@ -19,8 +19,7 @@ const TOO_ROUGH: f64 = 1e-9;
 /// The channel of the luminance, after red, green and blue.
 const LUMINANCE: usize = 3;
 
-/// Whether the variance of a strategy is known here: by a closed form or by cubature. Where lights emit by textures, fewer
-/// are: see [`Error::Textured`].
+/// Whether the variance of a strategy is known here: by a closed form or by cubature.
 pub fn has_formula(strategy: Strategy) -> bool {
     match strategy {
         Strategy::Single(technique) => technique.kind != Kind::HemisphereTowardLightsMarginal,
@@ -72,22 +71,13 @@ impl Sight {
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
             Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
-            // Of constant radiances, the density of area/uniform@power.
-            Kind::AreaLuminance => {
-                self.require_constant().and_then(|()| self.over_lights(Draw::Uniform, Selection::Power))
-            }
+            Kind::AreaLuminance => self.sum_of_laws(&[picked::by_luminance(self)?]),
         }
     }
 
     /// The variances of several strategies, each or the reason why there is none.
     pub fn variances(&self, strategies: &[Strategy]) -> Vec<(Strategy, Result<Value, Error>)> {
         strategies.iter().map(|&strategy| (strategy, self.variance(strategy))).collect()
-    }
-
-    /// Refuses lights in sight that emit by a texture.
-    pub(crate) fn require_constant(&self) -> Result<(), Error> {
-        let textured = self.seen.iter().find(|seen| seen.glow.is_some() && seen.is_visible());
-        textured.map_or(Ok(()), |seen| Err(Error::Textured { light: seen.light }))
     }
 
     /// w = c L a or c L with E[w²] = c Σ ∫ L² aᵏ dω: c = 2π and k = 2 for p = 1/2π, c = π and k = 1 for
@@ -144,13 +134,13 @@ impl Sight {
     /// [`Error::NotConverged`].
     pub fn optimal_alpha(&self) -> Result<[[f64; 3]; 2], Error> {
         let (colours, optimal) = (self.colours(), Optimal::new(self)?);
-        let channels = [0, 1, 2].map(|channel| optimal.alpha(|seen| colours.0[seen][channel]).0);
+        let channels = [0, 1, 2].map(|channel| optimal.alpha(&colours, channel).0);
         Ok([0, 1].map(|technique| channels.map(|alpha| alpha[technique])))
     }
 
     fn optimal(&self) -> Result<Value, Error> {
         let (colours, optimal) = (self.colours(), Optimal::new(self)?);
-        let outcome = |channel: usize| optimal.outcome(|seen| colours.0[seen][channel]);
+        let outcome = |channel: usize| optimal.outcome(&colours, channel);
         self.consistent(outcome(LUMINANCE))?;
         Ok(Value::of_outcomes(outcome))
     }

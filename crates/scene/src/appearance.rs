@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::attributes::Attributes;
 use crate::mapping::Mapping;
 use crate::material::{Alpha, Material};
 use crate::scene::Scene;
@@ -43,20 +44,51 @@ impl Scene {
             );
         };
         let (vertices, weights) = (self.vertices_in(surface, triangle), [1.0 - b1 - b2, b1, b2]);
-        let texel = |mapping: &Option<Mapping>| {
-            let mapping = mapping.as_ref()?;
-            let corners = attributes.coordinates(mapping.set, vertices)?;
-            let uv: DVec2 = corners.iter().zip(weights).map(|(&corner, weight)| corner * weight).sum();
-            Some(mapping.at(&self.textures, uv))
-        };
-        let white = [1.0; 4];
-        let base = texel(&material.base_color_texture).unwrap_or(white);
-        let color = attributes.colors(vertices).map_or(white, |colors| mean(&colors, weights));
-        let [_, rough, metal, _] = texel(&material.metallic_roughness_texture).unwrap_or(white);
-        let [red, green, blue, _] = texel(&material.emissive_texture).unwrap_or(white);
-        let base = product(product(material.base_color, base), color);
+        let texel = |mapping: &Option<Mapping>| self.texel(mapping.as_ref(), attributes, vertices, weights);
+        let [_, rough, metal, _] = texel(&material.metallic_roughness_texture);
+        let [red, green, blue, _] = texel(&material.emissive_texture);
+        let base = self.base_color(material, attributes, vertices, weights);
         let emission = product(material.emission, [red, green, blue]);
         material.appearance(base, [material.metallic * metal, material.roughness * rough], emission)
+    }
+
+    /// How much of the light the surface stops at that point of `triangle`: [`Appearance::alpha`].
+    pub fn alpha_at(&self, triangle: u32, [b1, b2]: [f64; 2]) -> f32 {
+        let surface = self.surface_of(triangle);
+        let material = &self.materials[surface.material];
+        let weights = [1.0 - b1 - b2, b1, b2];
+        let [.., alpha] = match &surface.attributes {
+            Some(attributes) => self.base_color(material, attributes, self.vertices_in(surface, triangle), weights),
+            None => material.base_color,
+        };
+        material.alpha.of(alpha)
+    }
+
+    /// Factor × texture × vertex colour.
+    fn base_color(
+        &self,
+        material: &Material,
+        attributes: &Attributes,
+        vertices: [usize; 3],
+        weights: [f64; 3],
+    ) -> [f32; 4] {
+        let texel = self.texel(material.base_color_texture.as_ref(), attributes, vertices, weights);
+        let color = attributes.colors(vertices).map_or(WHITE, |colors| mean(&colors, weights));
+        product(product(material.base_color, texel), color)
+    }
+
+    /// What a texture shows, white where there is none.
+    fn texel(
+        &self,
+        mapping: Option<&Mapping>,
+        attributes: &Attributes,
+        vertices: [usize; 3],
+        weights: [f64; 3],
+    ) -> [f32; 4] {
+        let Some(mapping) = mapping else { return WHITE };
+        let Some(corners) = attributes.coordinates(mapping.set, vertices) else { return WHITE };
+        let uv: DVec2 = corners.iter().zip(weights).map(|(&corner, weight)| corner * weight).sum();
+        mapping.at(&self.textures, uv)
     }
 
     /// Whether `triangle` is the same all over: its material shows no texture on it, and its vertices have no colours.
@@ -70,6 +102,20 @@ impl Scene {
     }
 }
 
+impl Alpha {
+    /// How much of the light a surface stops whose factor, texture and vertex colour come to `alpha`.
+    pub(crate) fn of(self, alpha: f32) -> f32 {
+        match self {
+            Self::Opaque => 1.0,
+            Self::Mask(cutoff) if alpha >= cutoff => 1.0,
+            Self::Mask(_) => 0.0,
+            Self::Blend => alpha,
+        }
+    }
+}
+
+const WHITE: [f32; 4] = [1.0; 4];
+
 impl Material {
     fn appearance(
         &self,
@@ -77,12 +123,7 @@ impl Material {
         [metallic, roughness]: [f32; 2],
         emission: [f32; 3],
     ) -> Appearance {
-        let alpha = match self.alpha {
-            Alpha::Opaque => 1.0,
-            Alpha::Mask(cutoff) if alpha >= cutoff => 1.0,
-            Alpha::Mask(_) => 0.0,
-            Alpha::Blend => alpha,
-        };
+        let alpha = self.alpha.of(alpha);
         Appearance { base_color: [red, green, blue], alpha, metallic, roughness, emission }
     }
 }

@@ -64,7 +64,7 @@ pub fn scene() -> Scene {
         receivers: vec![
             Receiver::new("near", [0.125, 1.5, 0.25], UP).note("In mid-air, near where the texels meet."),
             Receiver::new("below", [0.0, 0.0, 0.0], UP),
-            Receiver::new("penumbra", [0.75, 0.0, 0.25], UP),
+            Receiver::new("penumbra", [0.25, 0.0, 0.25], UP),
             Receiver::new("aside", [-3.0, 0.0, 1.0], UP),
             Receiver::new("tilted", [1.5, 1.0, 0.5], toward(DVec3::new(-1.0, 0.25, -0.125)))
                 .note("In mid-air; its horizon cuts the square."),

@@ -9,6 +9,7 @@ use twoforms_estimator::strategy::{Known, Prepared};
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::lanes::Instructions;
+use twoforms_geometry::ray::Ray;
 use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_scene::Camera;
@@ -121,10 +122,25 @@ impl<'a> Painter<'a> {
             }
             PixelFilter::Point => [0.5; 2],
         };
-        match self.look(f64::from(x) + dx, f64::from(y) + dy) {
+        let (x, y) = (f64::from(x) + dx, f64::from(y) + dy);
+        if self.world.geometry.is_veiled() {
+            return self.shade_through(x, y, stream);
+        }
+        match self.look(x, y) {
             None => Ok(Shaded { value: [0.0; 3], rays: 1 }),
             Some(seen) => self.shade(&seen, stream),
         }
+    }
+
+    /// What is seen through surfaces that are not opaque, each by the same light samples.
+    fn shade_through(&self, x: f64, y: f64, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+        let mut sum = Shaded { value: [0.0; 3], rays: 1 };
+        for (seen, weight) in self.world.see_through(&self.ray(x, y)) {
+            let Shaded { value, rays } = self.shade(&seen, stream)?;
+            sum.value = std::array::from_fn(|c| sum.value[c] + weight * value[c]);
+            sum.rays += rays - 1;
+        }
+        Ok(sum)
     }
 
     /// What a surface shows of itself and asks of the light.
@@ -195,13 +211,16 @@ impl<'a> Painter<'a> {
 
     /// Direction from the camera through a point of the image, in pixels.
     pub(super) fn toward(&self, x: f64, y: f64) -> DVec3 {
-        let Rendering { width, height, .. } = *self.rendering;
-        viewpoint::ray(self.camera, [x, y], [width, height]).direction
+        self.ray(x, y).direction
     }
 
     fn look(&self, x: f64, y: f64) -> Option<Seen> {
+        self.world.see(&self.ray(x, y))
+    }
+
+    fn ray(&self, x: f64, y: f64) -> Ray {
         let Rendering { width, height, .. } = *self.rendering;
-        self.world.see(&viewpoint::ray(self.camera, [x, y], [width, height]))
+        viewpoint::ray(self.camera, [x, y], [width, height])
     }
 
     fn centre(&self, x: u32, y: u32) -> Option<Centre> {

@@ -69,7 +69,7 @@ impl Shadow<'_> {
         let (sample, facing) = self.draw(from, drawn).parts();
         let mean = self.mean(&sample, facing);
         let visible = facing & from.visible(&sample.at, facing);
-        let unhidden = if self.query.lights().are_textured() {
+        let unhidden = if self.query.lights().vary() {
             self.worth(&sample, facing, self.query.l_e(from, Masked::new(sample.at, visible)))
         } else {
             mean
@@ -115,7 +115,7 @@ impl Primary for ControlVariate<'_> {
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R> {
         let Shade { mean, unhidden, visible, asked } = self.shadow.sample(from, drawn);
         let known = Rgb::splat(self.shadow.unoccluded.map(|u| u as f32)).or_black(from.wanted());
-        let hidden = if self.shadow.query.lights().are_textured() {
+        let hidden = if self.shadow.query.lights().vary() {
             mean + unhidden.or_black(visible) * R::splat(-1.0)
         } else {
             mean.or_black(asked & !visible)

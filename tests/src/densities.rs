@@ -1,8 +1,9 @@
 //! The density of each technique, with its domain.
 
 use twoforms_estimator::density::{
-    AreaOnLights, BilinearCosineOnLights, BrdfOfSurface, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
-    SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, BilinearCosineOnLights, BrdfOfSurface, CosineHemisphere, Density, LuminanceOnLights,
+    ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights,
+    UniformHemisphere,
 };
 use twoforms_estimator::measure::Measure;
 use twoforms_estimator::query::Query;
@@ -42,6 +43,11 @@ pub fn visit<V: Visitor>(technique: Technique, query: &Query, view: &View, visit
         }
         Kind::AreaUniform => {
             let ready = AreaOnLights::prepare(query.lights(), selection);
+            let density = ready.at(view, query);
+            visitor.visit(view, &density, &LightCells::new(view, &density.picking))
+        }
+        Kind::AreaLuminance => {
+            let ready = LuminanceOnLights::prepare(query.lights(), selection);
             let density = ready.at(view, query);
             visitor.visit(view, &density, &LightCells::new(view, &density.picking))
         }

@@ -39,7 +39,7 @@ impl Formulation for WithoutCosineAtLight {
     fn integrand<R: Real>(view: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
         let v = view.visible(y, xy.facing());
-        Integrand::new(query.l_e(Masked::new(*y, v)) * query.f_r(view, xy.psi) * (xy.cos_x / (xy.r * xy.r)))
+        Integrand::new(query.l_e(view, Masked::new(*y, v)) * query.f_r(view, xy.psi) * (xy.cos_x / (xy.r * xy.r)))
     }
 
     fn seen<R: Real>(view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<SurfacePoint<R>, R> {
@@ -60,7 +60,7 @@ impl Formulation for WithoutVisibility {
 
     fn integrand<R: Real>(view: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
-        Integrand::new(query.l_e(Masked::new(*y, xy.facing())) * query.f_r(view, xy.psi) * xy.g())
+        Integrand::new(query.l_e(view, Masked::new(*y, xy.facing())) * query.f_r(view, xy.psi) * xy.g())
     }
 
     fn seen<R: Real>(view: &Vantage<R>, y: &SurfacePoint<R>) -> Masked<SurfacePoint<R>, R> {

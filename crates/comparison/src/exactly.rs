@@ -112,7 +112,9 @@ pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult 
     let frame = place.frame();
     let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
     let sight = sight.and_then(|sight| place.reflected(&frame, sight));
-    let unoccluded = sight.as_ref().ok().filter(|_| place.is_glossy()).map(|sight| sight.irradiance_unoccluded().rgb);
+    // Where radiance varies over a target, the unhidden light of the mean radiances is another number, and not known.
+    let known = |_: &&Sight| place.is_glossy() && !world.lights.vary();
+    let unoccluded = sight.as_ref().ok().filter(known).map(|sight| sight.irradiance_unoccluded().rgb);
     let teams = strategies.iter().filter_map(|strategy| strategy.needs_alpha());
     let of = |team| Some((team, sight.as_ref().ok()?.optimal_alpha(team).ok()?));
     let alpha = teams.filter_map(of).collect();

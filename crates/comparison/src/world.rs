@@ -6,8 +6,8 @@ use glam::DVec3;
 use twoforms_estimator::glossy::{Makeup, MetallicRoughness};
 use twoforms_estimator::lights::Lights;
 use twoforms_geometry::blocking;
-use twoforms_geometry::geometry::Geometry;
-use twoforms_geometry::ray::Ray;
+use twoforms_geometry::geometry::{Geometry, Layer};
+use twoforms_geometry::ray::{Hit, Ray};
 use twoforms_geometry::tracer::Region;
 use twoforms_scene::{Appearance, SMOOTHEST, Scene, SceneError};
 
@@ -40,23 +40,39 @@ impl World {
     /// Builds the hierarchy.
     ///
     /// # Errors
-    /// When the scene has no light: there is nothing to estimate. And when a light emits by a texture: all that follows
-    /// takes the radiance of a light to be constant.
+    /// When the scene has no light: there is nothing to estimate.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         scene.require_emitters()?;
-        scene.require_constant_emission()?;
-        let geometry = Geometry::new(scene.mesh.clone(), scene.targets.clone());
+        let geometry = Geometry::new(scene.mesh.clone(), scene.targets.clone()).with_veil(scene.veil());
         let lights = Lights::new(&scene);
         Ok(Self { scene, geometry, lights })
     }
 
-    /// The first surface along a ray.
+    /// The first surface along a ray, blended or not.
     pub fn see(&self, ray: &Ray) -> Option<Seen> {
-        let hit = self.geometry.vp(ray)?;
+        let hit =
+            if self.geometry.is_veiled() { self.geometry.layers(ray).first()?.hit } else { self.geometry.vp(ray)? };
+        Some(self.seen(ray, hit))
+    }
+
+    /// The surfaces along a ray up to the first that is opaque, and how much each adds to what is seen: α_i Π_{j < i} (1 − α_j).
+    pub fn see_through(&self, ray: &Ray) -> Vec<(Seen, f64)> {
+        let mut left = 1.0;
+        let layers = self.geometry.layers(ray).into_iter();
+        layers
+            .map(|Layer { hit, share }| {
+                let weight = left * f64::from(share);
+                left -= weight;
+                (self.seen(ray, hit), weight)
+            })
+            .collect()
+    }
+
+    fn seen(&self, ray: &Ray, hit: Hit) -> Seen {
         let cross = self.geometry.mesh().triangle(hit.triangle).cross().normalize();
         let front = cross.dot(ray.direction) < 0.0;
         let normal = if front { cross } else { -cross };
-        Some(Seen { position: ray.at(hit.t), normal, distance: hit.t, triangle: hit.triangle, front })
+        Seen { position: ray.at(hit.t), normal, distance: hit.t, triangle: hit.triangle, front }
     }
 
     /// The surface that holds `position` and faces along `normal`, as seen from that side: one whose plane holds the
@@ -80,30 +96,46 @@ impl World {
         found
     }
 
-    /// What the surface that is seen is made of.
+    /// What the surface is at a point that is seen: textures and vertex colours too.
     pub fn appearance(&self, seen: &Seen) -> Appearance {
-        self.scene.material_of(seen.triangle).by_factors()
+        let triangle = self.geometry.mesh().triangle(seen.triangle);
+        self.scene.appearance_at(seen.triangle, triangle.barycentrics(seen.position))
+    }
+
+    /// ρ at a point that is seen, RGB.
+    pub fn albedo(&self, seen: &Seen) -> [f32; 3] {
+        if self.scene.is_uniform(seen.triangle) {
+            return self.scene.albedo(seen.triangle);
+        }
+        self.appearance(seen).albedo()
     }
 
     /// The surface that is seen, if it has a highlight.
     pub fn highlight(&self, seen: &Seen) -> Option<MetallicRoughness> {
-        let Appearance { base_color, metallic, roughness, specular, f_0, .. } = self.appearance(seen);
+        if !self.scene.material_of(seen.triangle).may_be_glossy() {
+            return None;
+        }
+        let appearance = self.appearance(seen);
+        let Appearance { base_color, metallic, roughness, specular, f_0, .. } = appearance;
         let roughness = roughness.max(SMOOTHEST);
         let makeup = Makeup { base: base_color, metallic, roughness, specular, f_0 };
-        self.appearance(seen).is_glossy().then(|| MetallicRoughness::new(&makeup))
+        appearance.is_glossy().then(|| MetallicRoughness::new(&makeup))
     }
 
-    /// Whether some surface of the scene has a highlight.
+    /// Whether some surface of the scene may have a highlight.
     pub fn has_highlights(&self) -> bool {
-        let materials = self.scene.surfaces.iter().map(|surface| &self.scene.materials[surface.material]);
-        materials.into_iter().any(|material| material.by_factors().is_glossy())
+        self.scene.surfaces.iter().any(|surface| self.scene.materials[surface.material].may_be_glossy())
     }
 
     /// L_e toward the eye from what is seen, RGB: black unless it is a light on a side that emits.
     pub fn emission(&self, seen: &Seen) -> [f32; 3] {
         let material = self.scene.material_of(seen.triangle);
         let lit = self.geometry.target_of(seen.triangle).is_some() && (seen.front || material.double_sided);
-        if lit { material.emission } else { [0.0; 3] }
+        match lit {
+            false => [0.0; 3],
+            true if material.emissive_texture.is_none() => material.emission,
+            true => self.appearance(seen).emission,
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 //! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
 
 pub mod batch;
+pub mod cells;
 pub mod combination;
 pub mod density;
 pub mod estimate;

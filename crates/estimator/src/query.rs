@@ -1,7 +1,8 @@
 //! What is asked of the light at x.
 
+use glam::DVec3;
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::Real;
+use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::vector::Direction;
 use twoforms_geometry::view::{Vantage, View};
@@ -60,26 +61,26 @@ impl<'l> Query<'l> {
     pub fn f_r<R: Real>(&self, from: &Vantage<R>, psi: Direction<R>) -> Rgb<R> {
         match &self.surface {
             Surface::Constant(f_r) => Rgb::splat(*f_r),
-            Surface::Glossy(glossy) => glossy.f_r(from.start(), psi),
+            Surface::Glossy(glossy) => glossy.f_r(from.footprint(), psi),
         }
     }
 
     /// L_e(y→−Ψ) f_r(x, Ψ↔Θ) cosθ_x: what arrives from a point y that x sees, per solid angle.
     #[inline(always)]
-    pub fn received<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>, xy: &Segment<R>) -> Rgb<R> {
-        self.l_e(Masked::all(*y)) * self.f_r(from, xy.psi) * xy.cos_x
+    pub fn received<R: Real>(&self, from: &Vantage<R>, y: Masked<SurfacePoint<R>, R>, xy: &Segment<R>) -> Rgb<R> {
+        self.l_e(from, y) * self.f_r(from, xy.psi) * xy.cos_x
     }
 
     /// Luminance of L_e(y→−Ψ) f_r(x, Ψ↔Θ) G(x, y): what y would contribute per area were nothing in between.
     #[inline(always)]
     pub fn unhidden<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> R {
         let xy = Segment::to(y);
-        let light = self.l_e(Masked::new(*y, xy.facing())) * self.f_r(from, xy.psi) * xy.g();
+        let light = self.l_e(from, Masked::new(*y, xy.facing())) * self.f_r(from, xy.psi) * xy.g();
         light.or_black(xy.facing()).luminance()
     }
 
-    /// What x would receive were nothing in between: Σ_k L_k f_r ∫ cosθ_x dω over each target, RGB. None where f_r is not the
-    /// same for all directions: no closed form is known then.
+    /// What x would receive were nothing in between: Σ_k L_k f_r ∫ cosθ_x dω over each target, RGB, with L_k the mean of L_e
+    /// over the target. None where f_r is not the same for all directions: no closed form is known then.
     pub fn unoccluded(&self, view: &View) -> Option<[f64; 3]> {
         let Surface::Constant(f_r) = self.surface else { return None };
         let mut sum = [0.0; 3];
@@ -90,9 +91,16 @@ impl<'l> Query<'l> {
         Some(sum)
     }
 
-    /// L_e(y→−Ψ), constant over a light; black where there is no y.
+    /// L_e(y→−Ψ), looked up at y where lights emit by textures, times what passes surfaces in between that are not opaque; black
+    /// where there is no y.
     #[inline(always)]
-    pub fn l_e<R: Real>(&self, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
+    pub fn l_e<R: Real>(&self, from: &Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
+        if self.lights.vary() { looked_up(self.lights, *from, y) } else { self.mean_l_e(y) }
+    }
+
+    /// The mean of L_e over the target that y lies on; black where there is no y.
+    #[inline(always)]
+    pub fn mean_l_e<R: Real>(&self, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
         let (y, some) = y.parts();
         let l_e = R::gather(
             y.target,
@@ -101,4 +109,51 @@ impl<'l> Query<'l> {
         );
         Rgb(l_e).or_black(some)
     }
+}
+
+/// Samples that lie side by side, at most.
+const MOST: usize = 16;
+
+/// L_e at each sample's own y and what passes of it, in binary64 up to the look-up; black where there is no y.
+#[cold]
+#[inline(never)]
+fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
+    R::apart(
+        #[inline(always)]
+        || {
+            let (y, some) = y.parts();
+            let (start, toward) = (from.start().to_array(), y.position.to_array());
+            let (mut starts, mut ways) = ([[0.0; MOST]; 3], [[0.0; MOST]; 3]);
+            for c in 0..3 {
+                start[c].store(&mut starts[c]);
+                toward[c].store(&mut ways[c]);
+            }
+            let (mut targets, mut wanted) = ([0; MOST], [0; MOST]);
+            y.target.store(&mut targets);
+            R::select_word(some, R::Word::splat(1), R::Word::splat(0)).store(&mut wanted);
+            let mut rgb = [[0.0; MOST]; 3];
+            for k in 0..R::LANES {
+                if wanted[k] != 0 {
+                    let start = [starts[0][k], starts[1][k], starts[2][k]];
+                    let l_e = arriving(lights, from.view(), targets[k], start, [ways[0][k], ways[1][k], ways[2][k]]);
+                    for c in 0..3 {
+                        rgb[c][k] = l_e[c];
+                    }
+                }
+            }
+            Rgb([R::load(&rgb[0]), R::load(&rgb[1]), R::load(&rgb[2])])
+        },
+    )
+}
+
+/// What arrives at `start` from the point of a target that lies `toward` from there, in the frame of x.
+fn arriving(lights: &Lights, view: &View, target: u32, start: [f32; 3], toward: [f32; 3]) -> [f32; 3] {
+    let [from, way] = [start, toward].map(|v| DVec3::from_array(v.map(f64::from)));
+    let frame = view.frame();
+    let l_e = lights.radiance_at(target, frame.x() + frame.to_world(from + way));
+    if !view.geometry().is_veiled() {
+        return l_e;
+    }
+    let passing = view.passing(start, toward, target) as f32;
+    l_e.map(|channel| channel * passing)
 }

@@ -8,8 +8,9 @@ use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{
-    AreaOnLights, BilinearCosineOnLights, BrdfOfSurface, CosineHemisphere, Density, ProjectedSolidAngleOnLights, Ready,
-    SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights, UniformHemisphere,
+    AreaOnLights, BilinearCosineOnLights, BrdfOfSurface, CosineHemisphere, Density, LuminanceOnLights,
+    ProjectedSolidAngleOnLights, Ready, SolidAngleOnLights, TowardLightsMarginally, TowardPreparedLights,
+    UniformHemisphere,
 };
 use crate::estimator::{Estimator, Single};
 use crate::formulation::{Area, Formulation, Hemisphere};
@@ -154,6 +155,8 @@ techniques! {
     AreaProjectedSolidAngle: Area, ProjectedSolidAngleOnLights = "area/projected-solid-angle" @selection,
     /// The same targets as by solid angle, times a cosine that is bilinear over each.
     AreaBilinearCosine: Area, BilinearCosineOnLights = "area/bilinear-cosine" @selection,
+    /// Points on the lights in proportion to the luminance that they emit, textures included.
+    AreaLuminance: Area, LuminanceOnLights = "area/luminance",
 }
 
 impl<F: Formulation, D: Density<F::Measure>> Single<'_, F, D> {

@@ -7,7 +7,8 @@ use twoforms_estimator::technique::{Kind, Technique};
 
 use crate::bilinear::Bilinear;
 use crate::error::Error;
-use crate::picked::{Draw, Shares, shares};
+use crate::law::Law;
+use crate::picked::{self, Draw, Shares, shares};
 use crate::reflected::Reflected;
 use crate::seen::Seen;
 use crate::sight::Sight;
@@ -52,6 +53,7 @@ impl Density {
                 drawn(Measure::BilinearCosine(bilinear), Draw::BilinearCosine)
             }
             Kind::HemisphereBrdf => Self::of_surface(sight),
+            Kind::AreaLuminance => Self::of_luminance(sight),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
         }
     }
@@ -64,6 +66,18 @@ impl Density {
         let (hidden, hidden_error) = reflected.missed_by_itself(sight)?;
         let shares = Shares { per_measure: vec![1.0; sight.seen.len()], hidden, hidden_error };
         Ok(Self { measure: Measure::Surface(reflected.clone()), shares })
+    }
+
+    /// In proportion to what each light emits; of textured lights the density jumps from cell to cell, and no formula is known here.
+    fn of_luminance(sight: &Sight) -> Result<Self, Error> {
+        if sight.seen.iter().any(|seen| seen.glow.is_some()) {
+            return Err(Error::NoFormula);
+        }
+        let total: f64 = sight.lights.iter().map(|light| light.power).sum();
+        let per_area = |seen: &Seen| sight.lights[seen.light].power / (sight.lights[seen.light].area * total);
+        let per_measure = sight.seen.iter().map(per_area).collect();
+        let Law { hidden, hidden_error, .. } = picked::by_luminance(sight)?;
+        Ok(Self { measure: Measure::Area, shares: Shares { per_measure, hidden, hidden_error } })
     }
 
     /// One over the whole of a measure over the hemisphere.

@@ -47,6 +47,26 @@ pub enum Error {
         /// How many cuts are tried before giving up.
         limit: usize,
     },
+    /// A texture that a target emits by shows more texels to the receiver than are worth computing.
+    #[error(
+        "what the receiver sees of target {target} shows more than {limit} texels of the texture that it emits by: reduce \
+         the image"
+    )]
+    TooManyTexels {
+        /// Which target.
+        target: u32,
+        /// How many pieces are tried before giving up.
+        limit: usize,
+    },
+    /// What is not opaque stands between the receiver and a target, or the target itself is cut out.
+    #[error(
+        "the receiver sees target {target}, or might, through a surface that is cut out or blended, or that target is cut out \
+         itself: only sampling tells what arrives"
+    )]
+    Veiled {
+        /// Which target.
+        target: u32,
+    },
     /// Cubature stopped at its limit of work with too large an error left.
     #[error("cubature did not converge: relative error {relative:.1e} after {cells} cells")]
     NotConverged {

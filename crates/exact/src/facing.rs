@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::glow::Glow;
+use crate::seen::Seen;
 
 /// One emitter target in the receiver's local frame: x at the origin, its normal N_x along +Z,
 /// metres, binary64.
@@ -19,8 +21,10 @@ pub struct Facing {
     pub faces: bool,
     /// Area in m², once, whatever the sides.
     pub area: f64,
-    /// L_e toward x, linear RGB, W/(m² sr) or lm/(m² sr).
+    /// L_e toward x, linear RGB, W/(m² sr) or lm/(m² sr); its mean where the target emits by a texture.
     pub radiance: [f64; 3],
+    /// L_e toward x point by point, where the target emits by a texture.
+    pub glow: Option<Glow>,
     /// Triangles that may stand between x and the target, in the same frame. A triangle whose plane
     /// holds x, and one that is coplanar with the target, block nothing and must have been left
     /// out. The others may lie anywhere: behind the target or across its plane, below the horizon,
@@ -38,6 +42,12 @@ pub struct Light {
 }
 
 impl Facing {
+    /// Whether one of these triangles stands before some of it, were nothing else in between.
+    pub(crate) fn is_veiled(&self, veils: Vec<[DVec3; 3]>) -> Result<bool, Error> {
+        let seen = Seen::facets(&Self { blockers: veils, glow: None, ..self.clone() })?;
+        Ok(seen.iter().any(|seen| seen.blocked))
+    }
+
     /// Refuses numbers that are not finite and lights that do not exist.
     pub(crate) fn check(&self, lights: usize) -> Result<(), Error> {
         let points = self.corners.iter().chain(self.blockers.iter().flatten());

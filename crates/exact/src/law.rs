@@ -3,11 +3,14 @@
 use crate::value::{EPSILON, Value};
 
 /// What an estimator does on one facet at unit radiance: the probability of landing on its visible
-/// part, and the mean and spread of the value there.
+/// part, and the mean and spread of the value there. On a facet that emits by a texture there is a
+/// part for each channel, with the radiance in the value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Part {
     /// Which facet of the sight.
     pub seen: usize,
+    /// The one channel that it holds for: red, green, blue or luminance.
+    pub channel: Option<usize>,
     /// P = ∫ p over the visible part.
     pub mass: f64,
     /// u = ∫ w p / P, w the sample's value at unit radiance.
@@ -53,16 +56,18 @@ impl Law {
     /// V = Σ [ (x_i − E)² P_i + L_i² S_i ] + H E².
     ///
     /// No term is negative, so that V keeps its digits however small against E².
-    pub fn outcome(&self, radiance: impl Fn(usize) -> f64) -> Outcome {
-        let mean = self.mean(&radiance);
+    pub fn outcome(&self, colours: &Colours, channel: usize) -> Outcome {
+        let parts: Vec<(&Part, f64)> =
+            self.parts.iter().filter_map(|part| Some((part, colours.of(part, channel)?))).collect();
+        let mean = self.mean(&parts);
         let mut outcome = Outcome {
             mean,
             variance: mean * mean * self.hidden,
             error: mean * mean * self.hidden_error,
             mean_error: 0.0,
         };
-        for part in &self.parts {
-            outcome.add(part, radiance(part.seen));
+        for (part, radiance) in parts {
+            outcome.add(part, radiance);
         }
         outcome.error += 16.0 * EPSILON * (outcome.variance + mean.abs() * outcome.variance.abs().sqrt());
         outcome.mean_error += 16.0 * EPSILON * mean.abs();
@@ -72,16 +77,16 @@ impl Law {
     /// E = Σ x_i P_i. Where nothing is hidden, Σ P_i = 1 and the sum is taken about the likeliest
     /// x_i, so that equal x_i give
     /// V = 0 and not rounding.
-    fn mean(&self, radiance: &impl Fn(usize) -> f64) -> f64 {
-        let value = |part: &Part| radiance(part.seen) * part.mean;
-        let likeliest = self.parts.iter().max_by(|a, b| a.mass.total_cmp(&b.mass));
+    fn mean(&self, parts: &[(&Part, f64)]) -> f64 {
+        let value = |(part, radiance): &(&Part, f64)| radiance * part.mean;
+        let likeliest = parts.iter().max_by(|(a, _), (b, _)| a.mass.total_cmp(&b.mass));
         let about = likeliest.filter(|_| self.hidden == 0.0).map_or(0.0, value);
-        about + self.parts.iter().map(|part| (value(part) - about) * part.mass).sum::<f64>()
+        about + parts.iter().map(|part| (value(part) - about) * part.0.mass).sum::<f64>()
     }
 
     /// The variance of one sample in every channel and in luminance.
     pub fn variance(&self, colours: &Colours) -> Value {
-        Value::of_outcomes(|channel| self.outcome(|seen| colours.of(seen)[channel]))
+        Value::of_outcomes(|channel| self.outcome(colours, channel))
     }
 }
 
@@ -101,9 +106,12 @@ impl Outcome {
 pub struct Colours(pub Vec<[f64; 4]>);
 
 impl Colours {
-    /// Those of one facet.
-    pub(crate) fn of(&self, seen: usize) -> [f64; 4] {
-        self.0[seen]
+    /// What scales the values of a part in one channel; none where it does not hold for that channel.
+    fn of(&self, part: &Part, channel: usize) -> Option<f64> {
+        match part.channel {
+            None => Some(self.0[part.seen][channel]),
+            Some(own) => (own == channel).then_some(1.0),
+        }
     }
 }
 

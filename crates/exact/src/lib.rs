@@ -21,6 +21,7 @@ pub mod error;
 pub mod facet;
 pub mod facing;
 pub mod gauss;
+pub mod glow;
 pub mod jittered;
 pub mod law;
 pub mod mis;
@@ -40,6 +41,7 @@ pub mod visible;
 
 pub use error::Error;
 pub use facing::{Facing, Light};
+pub use glow::Glow;
 pub use jittered::variance_of_jittered;
 pub use sight::Sight;
 pub use value::Value;

@@ -74,7 +74,7 @@ impl Members {
                 let p = self.densities(index, seen, y);
                 [seen.g(y) * over(weighting, self.expected(p), i), p[i]]
             };
-            law.parts.push(match weighting {
+            law.parts.extend(match weighting {
                 Weighting::Balance | Weighting::Power => by_cubature(index, seen, f)?,
                 Weighting::Cutoff | Weighting::Maximum => by_rough_cubature(index, seen, f)?,
                 _ => return Err(Error::NoFormula),
@@ -108,7 +108,7 @@ pub fn mixture(sight: &Sight, share: f64, pair: [Technique; 2]) -> Result<Law, E
     let hidden = mix(one.missed().0, other.missed().0);
     let mut law = Law { parts: Vec::new(), hidden, hidden_error: mix(one.missed().1, other.missed().1) };
     for (index, seen) in visible(sight) {
-        law.parts.push(by_cubature(index, seen, |y| {
+        law.parts.extend(by_cubature(index, seen, |y| {
             let p = mix(one.per_area(index, seen, y), other.per_area(index, seen, y));
             [seen.g(y) / p, p]
         })?);

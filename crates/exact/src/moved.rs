@@ -123,7 +123,14 @@ impl Moved<'_> {
     fn prospect(&self) -> Prospect {
         let (target, corners) = (self.target, self.corners());
         if !corners.iter().all(|corner| corner.is_finite()) {
-            return Prospect { target, standing: Standing::Lit, corners, blockers: Vec::new(), complete: true };
+            return Prospect {
+                target,
+                standing: Standing::Lit,
+                corners,
+                blockers: Vec::new(),
+                complete: true,
+                veils: Vec::new(),
+            };
         }
         let plane = self.rounded(self.target().first());
         Prospect::moved(self.frame, target, &corners, self.target().sides, &plane, |pyramid| self.blockers(pyramid))

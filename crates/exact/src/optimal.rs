@@ -10,7 +10,7 @@ use twoforms_estimator::combination::alpha;
 
 use crate::cubature::integrate;
 use crate::error::Error;
-use crate::law::{Colours, Outcome};
+use crate::law::Outcome;
 use crate::mis::{Members, visible};
 use crate::outline::line_integral;
 use crate::sight::Sight;
@@ -19,12 +19,12 @@ use crate::value::EPSILON;
 /// Relative error that integrals are computed to, where coordinates are known that well.
 const FINE: f64 = 1e-10;
 
-/// A team at one x: A, and b at unit radiance of each facet that is seen.
+/// A team at one x: A, and b in red, green, blue and luminance.
 pub struct Optimal<'s> {
     sight: &'s Sight,
     members: Members,
     matrix: [[f64; 3]; 3],
-    b: Vec<(usize, [f64; 3])>,
+    b: [[f64; 3]; 4],
 }
 
 impl<'s> Optimal<'s> {
@@ -37,45 +37,42 @@ impl<'s> Optimal<'s> {
         for k in 0..members.count() {
             matrix[k][k] = members.missed(k).0 / members.samples(k);
         }
-        let mut b = Vec::new();
+        let mut b = [[0.0; 3]; 4];
         for (index, seen) in visible(sight) {
             let relative = FINE.max(0.1 * seen.slack());
             let products = |y| {
                 let p = members.densities(index, seen, y);
                 let per_c = 1.0 / members.expected(p).iter().sum::<f64>();
-                let g = seen.g(y);
-                from_fn::<f64, 12, _>(|k| per_c * p[k % 3] * if k < 9 { p[k / 3] } else { g })
+                let (g, radiance) = (seen.g(y), seen.radiance_at(y));
+                let of = |k: usize| if k < 9 { p[k / 3] } else { radiance[k / 3 - 3] * g };
+                from_fn::<f64, 21, _>(|k| per_c * p[k % 3] * of(k))
             };
             let sum = integrate(&seen.pieces, products, |total| total.map(|value| relative * value))?;
-            for (i, row) in matrix.iter_mut().enumerate() {
-                row.iter_mut().zip(&sum.value[3 * i..]).for_each(|(a, part)| *a += part);
+            for (row, parts) in matrix.iter_mut().chain(&mut b).zip(sum.value.chunks_exact(3)) {
+                row.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
             }
-            b.push((index, from_fn(|k| sum.value[9 + k])));
         }
         Ok(Self { sight, members, matrix, b })
     }
 
-    /// α of each technique for radiances of the facets, and ∫ F = Σ n_k b_k.
-    fn solved(&self, radiance: impl Fn(usize) -> f64) -> ([f64; 3], f64) {
-        let mut b = [0.0; 3];
-        for (index, part) in &self.b {
-            b = from_fn(|k| b[k] + radiance(*index) * part[k]);
-        }
+    /// α of each technique in one channel, and ∫ F = Σ n_k b_k.
+    fn solved(&self, channel: usize) -> ([f64; 3], f64) {
+        let b = self.b[channel];
         let mean = (0..self.members.count()).map(|k| self.members.samples(k) * b[k]).sum();
         (alpha(self.matrix, b), mean)
     }
 
     /// α of each technique in red, green, blue and luminance.
-    pub fn alpha(&self, colours: &Colours) -> [[f64; 3]; 4] {
-        from_fn(|channel| self.solved(|seen| colours.of(seen)[channel]).0)
+    pub fn alpha(&self) -> [[f64; 3]; 4] {
+        from_fn(|channel| self.solved(channel).0)
     }
 
     /// Variance of the team's sum and its mean, in red, green, blue and luminance.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
-    pub fn outcomes(&self, colours: &Colours) -> Result<[Outcome; 4], Error> {
-        let solved: [_; 4] = from_fn(|channel| self.solved(|seen| colours.of(seen)[channel]));
+    pub fn outcomes(&self) -> Result<[Outcome; 4], Error> {
+        let solved: [_; 4] = from_fn(|channel| self.solved(channel));
         let mut outcomes = solved.map(|(alpha, mean)| self.of_missed(alpha, mean));
         for (index, seen) in visible(self.sight) {
             let slack = seen.slack();
@@ -83,10 +80,10 @@ impl<'s> Optimal<'s> {
             let residuals = |y| {
                 let p = self.members.densities(index, seen, y);
                 let c: f64 = self.members.expected(p).iter().sum();
-                let g = seen.g(y);
+                let (g, radiance) = (seen.g(y), seen.radiance_at(y));
                 from_fn::<f64, 4, _>(|channel| {
                     let (alpha, _) = &solved[channel];
-                    let rest = colours.of(index)[channel] * g - (0..3).map(|k| alpha[k] * p[k]).sum::<f64>();
+                    let rest = radiance[channel] * g - (0..3).map(|k| alpha[k] * p[k]).sum::<f64>();
                     rest * rest / c
                 })
             };

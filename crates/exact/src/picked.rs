@@ -1,9 +1,12 @@
 //! Estimators that draw a point on the lights, after picking a light or over all together.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use crate::bilinear::Bilinear;
 use crate::error::Error;
+use crate::glow::Glow;
 use crate::law::{Law, Part};
 use crate::seen::Seen;
 use crate::sight::Sight;
@@ -91,31 +94,77 @@ pub fn law(sight: &Sight, draw: Draw, selection: Selection, method: Method) -> R
     let mut law = Law { parts: Vec::new(), hidden, hidden_error };
     for ((index, seen), share) in sight.seen.iter().enumerate().zip(per_measure) {
         if share > 0.0 && seen.is_visible() {
-            law.parts.push(scaled(part(index, seen, draw, method)?, share));
+            law.parts.extend(parts(index, seen, draw, method)?.into_iter().map(|part| scaled(part, share)));
         }
     }
     Ok(law)
 }
 
-fn part(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Part, Error> {
+/// The law of one sample of `area/luminance`: p(y) = Y(y)/Φ, with Y the luminance times sides that the cell of y emits, and Φ
+/// the integral of Y over all lights; w = L g Φ/Y.
+///
+/// # Errors
+/// [`Error::NotConverged`]; [`Error::TooManyTexels`].
+pub fn by_luminance(sight: &Sight) -> Result<Law, Error> {
+    let total = sight.lights.iter().map(|light| light.power).sum::<f64>() / PI;
+    let mut law = Law::default();
+    let mut listed = 0.0;
+    for (index, seen) in sight.seen.iter().enumerate() {
+        let light = &sight.lights[seen.light];
+        let whole = seen.area * seen.glow.as_ref().map_or_else(|| light.power / (PI * light.area), Glow::mean_emitted);
+        listed += whole;
+        let parts = match &seen.glow {
+            _ if !seen.is_visible() => Vec::new(),
+            None => vec![scaled(constant(index, seen)?, whole / seen.area / total)],
+            Some(glow) => spread::by_cells(index, seen, glow, total)?,
+        };
+        let partial = seen.blocked || seen.clipped;
+        if partial || parts.is_empty() {
+            let mass = parts.first().map_or((0.0, 0.0), |part| (part.mass, part.mass_error));
+            law.hidden += whole / total - mass.0;
+            law.hidden_error += mass.1;
+        }
+        law.parts.extend(parts);
+    }
+    let rest = total - listed;
+    let rounding = 4.0 * EPSILON * (sight.seen.len() + sight.lights.len()) as f64;
+    law.hidden += if rest.abs() <= rounding * total { 0.0 } else { rest / total };
+    law.hidden_error += 4.0 * EPSILON * law.hidden + rounding;
+    Ok(law)
+}
+
+/// g under dA of a facet of one radiance.
+fn constant(index: usize, seen: &Seen) -> Result<Part, Error> {
+    let parts = parts(index, seen, Draw::Uniform, Method::Cubature)?;
+    Ok(parts[0])
+}
+
+fn parts(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Vec<Part>, Error> {
     let kept = &seen.cubatures;
+    let method = if seen.glow.is_some() { Method::Cubature } else { method };
     match (draw, method) {
-        (Draw::Uniform, Method::Edges) => Ok(spread::of_area(index, seen)),
+        (Draw::Uniform, Method::Edges) => Ok(vec![spread::of_area(index, seen)]),
         (Draw::Uniform, Method::Cubature) => {
             kept.area.get_or_init(|| spread::by_cubature(index, seen, |y| [seen.g(y), 1.0])).clone()
         }
-        (Draw::SolidAngle, Method::Edges) => Ok(spread::of_solid_angle(index, seen)),
+        (Draw::SolidAngle, Method::Edges) => Ok(vec![spread::of_solid_angle(index, seen)]),
         (Draw::SolidAngle, Method::Cubature) => {
             let by_cubature = || spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s));
             kept.solid_angle.get_or_init(by_cubature).clone()
         }
-        (Draw::ProjectedSolidAngle, _) => Ok(spread::of_projected_solid_angle(index, seen)),
+        (Draw::ProjectedSolidAngle, _) if seen.glow.is_none() => {
+            Ok(vec![spread::of_projected_solid_angle(index, seen)])
+        }
+        (Draw::ProjectedSolidAngle, _) => {
+            let by_cubature = || spread::by_cubature(index, seen, |y| [1.0, seen.g(y)]);
+            kept.projected_solid_angle.get_or_init(by_cubature).clone()
+        }
         (Draw::BilinearCosine, _) => kept.bilinear.get_or_init(|| by_bilinear_cosine(index, seen)).clone(),
     }
 }
 
 /// cosθ_x/w under w dω.
-fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Part, Error> {
+fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Vec<Part>, Error> {
     let bilinear = Bilinear::new(&seen.corners);
     let f = |y: DVec3| {
         let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
@@ -135,6 +184,7 @@ fn cos_x_and_d_omega(y: DVec3, s: f64) -> [f64; 2] {
 fn scaled(part: Part, share: f64) -> Part {
     Part {
         seen: part.seen,
+        channel: part.channel,
         mass: part.mass * share,
         mean: part.mean / share,
         spread: part.spread / share,
@@ -166,9 +216,10 @@ fn hidden_of_bilinear(sight: &Sight, index: usize, seen: &Seen) -> Result<(f64, 
     if sight.seen.iter().all(|seen| !seen.blocked && !seen.clipped) {
         return Ok((0.0, 0.0));
     }
-    let part =
-        if seen.is_visible() { part(index, seen, Draw::BilinearCosine, Method::Cubature)? } else { Part::default() };
-    Ok((whole(seen, Draw::BilinearCosine) - part.mass, part.mass_error))
+    let parts =
+        if seen.is_visible() { parts(index, seen, Draw::BilinearCosine, Method::Cubature)? } else { Vec::new() };
+    let (mass, error) = parts.first().map_or((0.0, 0.0), |part| (part.mass, part.mass_error));
+    Ok((whole(seen, Draw::BilinearCosine) - mass, error))
 }
 
 /// The measure of what x does not see of a facet, and a bound of its error.
@@ -231,7 +282,7 @@ fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>,
 fn group_of(seen: &Seen, selection: Selection) -> usize {
     match selection {
         Selection::Together => 0,
-        Selection::Tree => seen.target,
+        Selection::Tree => seen.target as usize,
         _ => seen.light,
     }
 }

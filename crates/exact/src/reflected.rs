@@ -13,7 +13,7 @@ use twoforms_estimator::technique::Technique;
 use crate::cubature::{Peak, integrate_near};
 use crate::density::Density;
 use crate::error::Error;
-use crate::law::{Law, Outcome};
+use crate::law::{Colours, Law, Outcome};
 use crate::mis::{Members, over, visible};
 use crate::outline::line_integral;
 use crate::seen::Seen;
@@ -49,8 +49,11 @@ impl Sight {
         }
         let (arriving, unoccluded) = (Value::default(), Value::default());
         let mut reflected = Reflected { surface: *glossy.surface(), theta, arriving, unoccluded };
-        reflected.arriving = reflected.radiance(&self, |seen| seen.pieces.clone())?;
-        let open = |seen: &Seen| Pieces::one(&above_horizon(&seen.facet).0);
+        reflected.arriving = reflected.radiance(&self, |seen| Ok(seen.pieces.clone()))?;
+        let open = |seen: &Seen| {
+            let whole = Pieces::one(&above_horizon(&seen.facet).0);
+            seen.glow.as_ref().map_or(Ok(whole.clone()), |glow| glow.cut(&whole, seen.target))
+        };
         reflected.unoccluded = reflected.radiance(&self, open)?;
         self.reflected = Some(reflected);
         Ok(self)
@@ -121,7 +124,7 @@ impl Reflected {
             let p = p(index, seen, y);
             if p == 0.0 { 0.0 } else { 1.0 / p }
         })?;
-        checked(sight, &laws.map(|law| law.outcome(|_| 1.0)))
+        checked(sight, &laws.map(|law| law.outcome(&Colours(vec![[1.0; CHANNELS]; sight.seen.len()]), 0)))
     }
 
     /// Samples are independent, so that their variances add up.
@@ -135,7 +138,7 @@ impl Reflected {
                 if q == [0.0; 3] { 0.0 } else { over(weighting, q, i) }
             })?;
             for (sum, law) in sums.iter_mut().zip(laws) {
-                sum.add_samples(members.samples(i), &law.outcome(|_| 1.0));
+                sum.add_samples(members.samples(i), &law.outcome(&Colours(vec![[1.0; CHANNELS]; sight.seen.len()]), 0));
             }
         }
         checked(sight, &sums)
@@ -162,15 +165,16 @@ impl Reflected {
     /// F(y) = L_e f_r cosθ_x cosθ_y/r², in every channel.
     fn integrand(&self, seen: &Seen, y: DVec3) -> [f64; CHANNELS] {
         let (f_r, g) = (self.surface.f_r(self.theta, direction(y)), seen.g(y));
-        let [r, g, b] = [0, 1, 2].map(|c| seen.radiance[c] * f_r[c] * g);
+        let radiance = seen.radiance_at(y);
+        let [r, g, b] = [0, 1, 2].map(|c| radiance[c] * f_r[c] * g);
         [r, g, b, luminance([r, g, b])]
     }
 
     /// ∫ F dA over some part of every facet.
-    fn radiance(&self, sight: &Sight, part: impl Fn(&Seen) -> Pieces) -> Result<Value, Error> {
+    fn radiance(&self, sight: &Sight, part: impl Fn(&Seen) -> Result<Pieces, Error>) -> Result<Value, Error> {
         let (mut sum, mut error_bound) = ([0.0; CHANNELS], 0.0);
         for seen in sight.seen.iter().filter(|seen| seen.luminance > 0.0) {
-            let (pieces, f) = (part(seen), |y: DVec3| self.integrand(seen, y));
+            let (pieces, f) = (part(seen)?, |y: DVec3| self.integrand(seen, y));
             let slack = seen.slack_of(&seen.open) * self.peak().steepness();
             let relative = FINE.max(0.1 * slack);
             let found = integrate_near(&pieces, Some(&self.peak()), f, |total| total.map(|v| relative * v))?;

@@ -5,10 +5,11 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 
-use crate::cubature::{guess, integrate};
+use crate::cubature::{Integral, guess, integrate};
 use crate::error::Error;
 use crate::facet::Facet;
 use crate::facing::Facing;
+use crate::glow::Glow;
 use crate::law::Part;
 use crate::moments::{Moments, solid_angle_of};
 use crate::outline::line_integral;
@@ -22,14 +23,18 @@ const TOO_ROUGH: f64 = 1e-11;
 /// A facet that emits toward x.
 #[derive(Clone, Debug)]
 pub struct Seen {
-    /// The target it belongs to.
-    pub target: usize,
+    /// The target it belongs to, by its number in the scene.
+    pub target: u32,
     /// The light it belongs to.
     pub light: usize,
-    /// L_e toward x, linear RGB.
+    /// L_e toward x, linear RGB; its mean over the target where that emits by a texture.
     pub radiance: [f64; 3],
-    /// Luminance of L_e.
+    /// Luminance of that.
     pub luminance: f64,
+    /// L_e toward x point by point, where it emits by a texture; `pieces` are then cut along its texels.
+    pub glow: Option<Glow>,
+    /// What x receives from it, and what it would were nothing in between.
+    pub received: [Received; 2],
     /// Area in m², as the scene counts it.
     pub area: f64,
     /// Area of the visible part in m², on the same scale; equal to `area` when all is seen.
@@ -54,15 +59,26 @@ pub struct Seen {
     pub(crate) cubatures: Cubatures,
 }
 
-/// Results that are computed when first asked for.
+/// ∫ L_e cosθ_x dω: linear RGB, and a bound of the error of its luminance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Received {
+    /// Linear RGB.
+    pub rgb: [f64; 3],
+    /// Bound of the error of the luminance.
+    pub error: f64,
+}
+
+/// Results that are computed when first asked for: what a facet adds to the law of an estimator.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cubatures {
     /// Of g under dA.
-    pub area: OnceLock<Result<Part, Error>>,
+    pub area: OnceLock<Result<Vec<Part>, Error>>,
     /// Of cosθ_x under dω.
-    pub solid_angle: OnceLock<Result<Part, Error>>,
+    pub solid_angle: OnceLock<Result<Vec<Part>, Error>>,
+    /// Of 1 under cosθ_x dω.
+    pub projected_solid_angle: OnceLock<Result<Vec<Part>, Error>>,
     /// Of cosθ_x over the bilinear cosine, under that times dω.
-    pub bilinear: OnceLock<Result<Part, Error>>,
+    pub bilinear: OnceLock<Result<Vec<Part>, Error>>,
 }
 
 impl Seen {
@@ -81,14 +97,26 @@ impl Seen {
         let Visible { pieces, blocked, amplification } = subtract(&facet, &outline, &facing.blockers)
             .ok_or(Error::TooManyPieces { target: facing.target, blockers: facing.blockers.len(), limit: LIMIT })?;
         let moments = moments_of(&pieces, &facet, amplification);
-        let open = if blocked { moments_of(&Pieces::one(&outline), &facet, 1.0) } else { moments };
+        let whole = || Pieces::one(&outline);
+        let open = if blocked { moments_of(&whole(), &facet, 1.0) } else { moments };
+        let (pieces, received) = match &facing.glow {
+            None => (pieces, [moments, open].map(|moments| Received::at(facing.radiance, &moments))),
+            Some(glow) => {
+                let pieces = glow.cut(&pieces, facing.target)?;
+                let seen = Received::by_texture(glow, &pieces, &facet, &moments)?;
+                let unhidden = || Received::by_texture(glow, &glow.cut(&whole(), facing.target)?, &facet, &open);
+                (pieces, [seen, if blocked { unhidden()? } else { seen }])
+            }
+        };
         let whole_solid_angle = if clipped { solid_angle_of(&facet.corners) } else { open.solid_angle };
         let visible_area = if blocked || clipped { area * (moments.area / facet.area) } else { area };
         Ok(Self {
-            target: facing.target as usize,
+            target: facing.target,
             light: facing.light as usize,
             radiance: facing.radiance,
             luminance: luminance(facing.radiance),
+            glow: facing.glow.clone(),
+            received,
             area,
             visible_area,
             whole_solid_angle,
@@ -108,6 +136,31 @@ impl Seen {
         self.moments.area > 0.0 && self.moments.solid_angle > 0.0 && self.moments.m10 > 0.0
     }
 
+    /// ∫ L_e² cosᵏθ_x dω over what x sees for k = 1 or 2, with a bound of its error: red, green, blue, luminance.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn squared(&self, k: usize) -> Result<[[f64; 2]; 4], Error> {
+        let Some(glow) = &self.glow else {
+            let moment = [self.moments.m10, self.moments.m20][k - 1];
+            let [r, g, b] = self.radiance;
+            return Ok([r, g, b, self.luminance].map(|l| [l * l * moment, l * l * self.moments.errors[k]]));
+        };
+        let squares = |y: DVec3| {
+            let weight = self.g(y) * if k == 2 { y.z / y.length() } else { 1.0 };
+            glow.at(y).map(|l| l * l * weight)
+        };
+        let sum = textured(glow, &self.pieces, &self.facet, &self.moments, squares)?;
+        Ok(from_fn(|c| [sum.value[c], sum.error[c]]))
+    }
+
+    /// What x receives from it in one channel: red, green, blue, luminance.
+    pub fn in_channel(&self, channel: usize) -> [f64; 2] {
+        let [Received { rgb, error }, _] = self.received;
+        let luminance = if self.glow.is_some() { luminance(rgb) } else { self.luminance * self.moments.m10 };
+        [[rgb[0], rgb[1], rgb[2], luminance][channel], error]
+    }
+
     /// cosθ_x cosθ_y / r² of a point y of the facet: the geometry term of the area formulation,
     /// without V.
     pub fn g(&self, y: DVec3) -> f64 {
@@ -123,8 +176,50 @@ impl Seen {
 
     /// The same on a part with these moments.
     pub(crate) fn slack_of(&self, moments: &Moments) -> f64 {
-        slack(&self.facet, moments.solid_angle, moments.m10)
+        let in_grid = self.glow.as_ref().map_or(0.0, |glow| glow.slack(self.facet.reach));
+        slack(&self.facet, moments.solid_angle, moments.m10) + in_grid
     }
+
+    /// L_e f_r at a point y of it: red, green, blue, luminance.
+    pub(crate) fn radiance_at(&self, y: DVec3) -> [f64; 4] {
+        let [r, g, b] = self.radiance;
+        self.glow.as_ref().map_or([r, g, b, self.luminance], |glow| glow.at(y))
+    }
+}
+
+impl Received {
+    /// At one radiance.
+    fn at(radiance: [f64; 3], moments: &Moments) -> Self {
+        Self { rgb: radiance.map(|l| l * moments.m10), error: luminance(radiance) * moments.errors[1] }
+    }
+
+    /// By a texture, along whose texels the pieces are cut.
+    fn by_texture(glow: &Glow, pieces: &Pieces, facet: &Facet, moments: &Moments) -> Result<Self, Error> {
+        let light = |y: DVec3| {
+            let r2 = y.length_squared();
+            glow.at(y).map(|l| l * (y.z * facet.s) / (r2 * r2))
+        };
+        let Integral { value: [r, g, b, _], error } = textured(glow, pieces, facet, moments, light)?;
+        Ok(Self { rgb: [r, g, b], error: error[3] })
+    }
+}
+
+/// ∫ f dA over pieces that are cut along the texels, f >= 0 a function of the radiance there, with bounds of all errors.
+fn textured<const K: usize>(
+    glow: &Glow,
+    pieces: &Pieces,
+    facet: &Facet,
+    moments: &Moments,
+    f: impl Fn(DVec3) -> [f64; K],
+) -> Result<Integral<K>, Error> {
+    let slack = slack(facet, moments.solid_angle, moments.m10) + glow.slack(facet.reach);
+    let relative = (0.1 * slack).clamp(1e-12, 1.0);
+    let mut sum = integrate(pieces, &f, |total| total.map(|value| relative * value + f64::MIN_POSITIVE))?;
+    let outline = line_integral(pieces, &f);
+    for k in 0..K {
+        sum.error[k] += moments.shift * outline[k] + 4.0 * slack * sum.value[k];
+    }
+    Ok(sum)
 }
 
 /// The plane's distance s and the heights z are known to some ε × reach each; s/r² and z/r carry

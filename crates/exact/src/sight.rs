@@ -7,7 +7,6 @@ use twoforms_geometry::frame::Frame;
 
 use crate::error::Error;
 use crate::facing::{Facing, Light};
-use crate::moments::Moments;
 use crate::reflected::Reflected;
 use crate::seen::Seen;
 use crate::value::{EPSILON, Value};
@@ -93,23 +92,23 @@ impl Sight {
 
     /// E = ∫ L_e cosθ_x V dω; of a reflected sight the radiance ∫ L_e f_r cosθ_x V dω.
     pub fn irradiance(&self) -> Value {
-        self.reflected.as_ref().map_or_else(|| self.sum(|seen| &seen.moments), |reflected| reflected.arriving)
+        self.reflected.as_ref().map_or_else(|| self.sum(0), |reflected| reflected.arriving)
     }
 
     /// The same with V = 1: what the lights would give if nothing stood before them.
     pub fn irradiance_unoccluded(&self) -> Value {
-        self.reflected.as_ref().map_or_else(|| self.sum(|seen| &seen.open), |reflected| reflected.unoccluded)
+        self.reflected.as_ref().map_or_else(|| self.sum(1), |reflected| reflected.unoccluded)
     }
 
-    /// Σ L_e M_10.
-    fn sum(&self, moments: impl Fn(&Seen) -> &Moments) -> Value {
+    /// Σ ∫ L_e cosθ_x dω, as x sees it or unhidden.
+    fn sum(&self, unhidden: usize) -> Value {
         let mut rgb = [0.0; 3];
         let mut error_bound = 0.0;
         for seen in &self.seen {
-            for (channel, radiance) in rgb.iter_mut().zip(seen.radiance) {
-                *channel += radiance * moments(seen).m10;
+            for (channel, received) in rgb.iter_mut().zip(seen.received[unhidden].rgb) {
+                *channel += received;
             }
-            error_bound += seen.luminance * moments(seen).errors[1];
+            error_bound += seen.received[unhidden].error;
         }
         let luminance = luminance(rgb);
         Value { rgb, luminance, error_bound: error_bound + EPSILON * (self.seen.len() + 4) as f64 * luminance }

@@ -4,24 +4,35 @@ use std::array::from_fn;
 
 use glam::DVec3;
 
-use crate::cubature::{Peak, guess, integrate_near};
+use crate::cubature::{Peak, guess, integrate, integrate_near};
 use crate::error::Error;
+use crate::glow::Glow;
 use crate::law::Part;
 use crate::outline::line_integral;
 use crate::seen::Seen;
 use crate::value::EPSILON;
+use crate::visible::Pieces;
 
 /// ∫ w dA, the mean of u under w dA, and ∫ (u − mean)² w dA over the visible part, where `f` gives
 /// \[u, w\] at a point y of the light. Centred, so that a nearly constant u keeps the digits of its
-/// spread.
+/// spread. Where the facet emits by a texture, u times the radiance in each channel.
 ///
 /// # Errors
-/// [`Error::NotConverged`].
-pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    within(index, seen, None, FINE, f)
+/// [`Error::NotConverged`]; [`Error::TooManyTexels`].
+pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+    within(index, seen, FINE, f)
 }
 
-/// The same for functions that may have a peak.
+/// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
+/// the bounds say how small.
+///
+/// # Errors
+/// [`Error::NotConverged`]; [`Error::TooManyTexels`].
+pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+    within(index, seen, ROUGH, f)
+}
+
+/// The same of one function, radiance in it, that may have a peak.
 ///
 /// # Errors
 /// [`Error::NotConverged`].
@@ -31,27 +42,43 @@ pub fn by_cubature_near(
     peak: Option<&Peak>,
     f: impl Fn(DVec3) -> [f64; 2],
 ) -> Result<Part, Error> {
-    within(index, seen, peak, FINE, f)
+    of_function(index, seen, peak, FINE, f)
 }
 
-/// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
-/// the bounds say how small.
+/// u = L g Φ/Y under Y dA/Φ, with Y the luminance times sides that the cell of y emits and Φ that of all lights.
 ///
 /// # Errors
-/// [`Error::NotConverged`].
-pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    within(index, seen, None, ROUGH, f)
+/// [`Error::NotConverged`]; [`Error::TooManyTexels`].
+pub fn by_cells(index: usize, seen: &Seen, glow: &Glow, total: f64) -> Result<Vec<Part>, Error> {
+    let pieces = glow.cut_in_cells(&seen.pieces, seen.target)?;
+    let drawn = |y: DVec3| {
+        let share = glow.emitted(y) / total;
+        let per_share = if share > 0.0 { seen.g(y) / share } else { 0.0 };
+        (glow.at(y).map(|radiance| radiance * per_share), share)
+    };
+    of_channels(index, seen, &pieces, FINE, drawn)
 }
 
 /// Relative errors of the mass, and of mean and spread.
 const FINE: [f64; 2] = [1e-11, 1e-9];
 const ROUGH: [f64; 2] = [1e-3, 1e-3];
 
-fn within(
+fn within(index: usize, seen: &Seen, fine: [f64; 2], f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+    let Some(glow) = &seen.glow else {
+        return Ok(vec![of_function(index, seen, None, fine, f)?]);
+    };
+    let in_channels = |y: DVec3| {
+        let [u, w] = f(y);
+        (glow.at(y).map(|radiance| radiance * u), w)
+    };
+    of_channels(index, seen, &seen.pieces, fine, in_channels)
+}
+
+fn of_function(
     index: usize,
     seen: &Seen,
     peak: Option<&Peak>,
-    [of_mass, of_spread]: [f64; 2],
+    fine: [f64; 2],
     f: impl Fn(DVec3) -> [f64; 2],
 ) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
@@ -65,33 +92,85 @@ fn within(
         [w, d * w, d * d * w]
     };
     let slack = seen.slack() * peak.map_or(1.0, Peak::steepness);
-    // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
-    let relative = |least: f64| least.max(0.1 * slack);
-    let tolerance = |&[mass, _, second]: &[f64; 3]| {
-        let size = centre.abs() * mass;
-        [
-            relative(of_mass) * mass,
-            relative(of_spread) * (second * mass).sqrt() + 1e-15 * size,
-            relative(of_spread) * second + 1e-18 * centre.abs() * size,
-        ]
-    };
-    let sum = integrate_near(&seen.pieces, peak, about_centre, tolerance)?;
-    let [mass, first, second] = sum.value;
-    let shift = if mass > 0.0 { first / mass } else { 0.0 };
-    let spread = second - shift * first;
-    // The vertices' rounding moves the outline, and scales u and w by some (1 + slack).
+    let sum = integrate_near(&seen.pieces, peak, about_centre, |&[mass, _, second]| {
+        let [first, second] = allowed(centre, mass, second, relative(fine[1], slack));
+        [relative(fine[0], slack) * mass, first, second]
+    })?;
     let edges = line_integral(&seen.pieces, about_centre);
     let outline: [f64; 3] = from_fn(|k| sum.error[k] + edges[k] * seen.moments.shift);
+    Ok(Part { seen: index, ..part(centre, sum.value, outline, slack) })
+}
+
+/// Most pieces of a facet that emits by a texture over which variances are worth computing.
+const MOST: usize = 1 << 16;
+
+/// A part for each channel, `f` giving their u and w, over pieces that are cut along the texels.
+fn of_channels(
+    index: usize,
+    seen: &Seen,
+    pieces: &Pieces,
+    fine: [f64; 2],
+    f: impl Fn(DVec3) -> ([f64; 4], f64),
+) -> Result<Vec<Part>, Error> {
+    if pieces.len() > MOST {
+        return Err(Error::TooManyTexels { target: seen.target, limit: MOST });
+    }
+    let [mass, firsts @ ..] = guess::<5>(pieces, |y| {
+        let (u, w) = f(y);
+        [w, u[0] * w, u[1] * w, u[2] * w, u[3] * w]
+    });
+    let centres = firsts.map(|first| if mass > 0.0 { first / mass } else { 0.0 });
+    let about_centres = |y: DVec3| -> [f64; 9] {
+        let (u, w) = f(y);
+        let d: [f64; 4] = from_fn(|c| u[c] - centres[c]);
+        [w, d[0] * w, d[1] * w, d[2] * w, d[3] * w, d[0] * d[0] * w, d[1] * d[1] * w, d[2] * d[2] * w, d[3] * d[3] * w]
+    };
+    let slack = seen.slack();
+    let sum = integrate(pieces, about_centres, |total| {
+        let of_channel: [[f64; 2]; 4] =
+            from_fn(|c| allowed(centres[c], total[0], total[5 + c], relative(fine[1], slack)));
+        from_fn(|k| match k {
+            0 => relative(fine[0], slack) * total[0],
+            1..5 => of_channel[k - 1][0],
+            _ => of_channel[k - 5][1],
+        })
+    })?;
+    let edges = line_integral(pieces, about_centres);
+    let outline: [f64; 9] = from_fn(|k| sum.error[k] + edges[k] * seen.moments.shift);
+    let in_channel = |c: usize| {
+        let of = |all: &[f64; 9]| [all[0], all[1 + c], all[5 + c]];
+        Part { seen: index, channel: Some(c), ..part(centres[c], of(&sum.value), of(&outline), slack) }
+    };
+    Ok((0..4).map(in_channel).collect())
+}
+
+/// Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
+fn relative(least: f64, slack: f64) -> f64 {
+    least.max(0.1 * slack)
+}
+
+/// The errors allowed of ∫ (u − centre) w and ∫ (u − centre)² w.
+fn allowed(centre: f64, mass: f64, second: f64, relative: f64) -> [f64; 2] {
+    let size = centre.abs() * mass;
+    [relative * (second * mass).sqrt() + 1e-15 * size, relative * second + 1e-18 * centre.abs() * size]
+}
+
+/// From ∫ w, ∫ (u − centre) w and ∫ (u − centre)² w, with what cubature and the rounding of the outline leave open.
+fn part(centre: f64, [mass, first, second]: [f64; 3], outline: [f64; 3], slack: f64) -> Part {
+    let shift = if mass > 0.0 { first / mass } else { 0.0 };
+    // The vertices' rounding also scales u and w by some (1 + slack).
     let size = (second * (second + centre * centre * mass)).sqrt();
-    Ok(Part {
-        seen: index,
+    let per_mass = |value: f64| if mass > 0.0 { value / mass } else { 0.0 };
+    Part {
+        seen: 0,
+        channel: None,
         mass,
         mean: centre + shift,
-        spread,
+        spread: second - shift * first,
         mass_error: outline[0] + slack * mass,
-        mean_error: outline[1] / mass + slack * (size / mass).sqrt() + slack * centre.abs(),
+        mean_error: per_mass(outline[1]) + slack * per_mass(size).sqrt() + slack * centre.abs(),
         spread_error: outline[2] + 2.0 * shift.abs() * outline[1] + 4.0 * slack * (size + second),
-    })
+    }
 }
 
 /// u = g = cosθ_x cosθ_y/r² under dA, by edge sums: ∫ g dA = M_10 and ∫ g² dA = M_23/s².
@@ -131,6 +210,7 @@ fn closed(
     let mean = first / mass;
     Part {
         seen,
+        channel: None,
         mass,
         mean,
         spread: second - first * mean,

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use crate::error::Error;
 use crate::law::{Colours, Law, Outcome};
 use crate::mis::{self, Members};
-use crate::moments::Moments;
 use crate::optimal::Optimal;
 use crate::picked::{self, Draw, Method};
 use crate::seen::Seen;
@@ -65,23 +64,22 @@ impl Sight {
                 let laws = members.laws(self, weighting)?.into_iter().enumerate();
                 self.sum_of_laws(&laws.map(|(k, law)| (law, members.samples(k))).collect::<Vec<_>>())
             }
-            Strategy::ControlVariate => Ok(self.control_variate()),
+            Strategy::ControlVariate => self.control_variate(),
             Strategy::Resampled(_) | Strategy::Ratio => Err(Error::NoFormula),
         }
     }
 
     fn of_technique(&self, Technique { kind, selection }: Technique) -> Result<Value, Error> {
         match kind {
-            Kind::HemisphereUniform => Ok(self.over_hemisphere(2.0 * PI, |moments| (moments.m20, moments.errors[2]))),
+            Kind::HemisphereUniform => self.over_hemisphere(2.0 * PI, 2),
             // f_r is constant, so that its own density is the cosine.
-            Kind::HemisphereCosine | Kind::HemisphereBrdf => {
-                Ok(self.over_hemisphere(PI, |moments| (moments.m10, moments.errors[1])))
-            }
+            Kind::HemisphereCosine | Kind::HemisphereBrdf => self.over_hemisphere(PI, 1),
             Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
             Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
             Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
             Kind::AreaBilinearCosine => self.over_lights(Draw::BilinearCosine, selection),
             Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
+            Kind::AreaLuminance => self.sum_of_laws(&[(picked::by_luminance(self)?, 1.0)]),
         }
     }
 
@@ -90,25 +88,24 @@ impl Sight {
         strategies.iter().map(|&strategy| (strategy, self.variance(strategy))).collect()
     }
 
-    /// w = c L a or c L with E[w²] = c Σ L² M: c = 2π with M_20 for p = 1/2π, c = π with M_10 for p
-    /// = cosθ_x/π.
-    fn over_hemisphere(&self, c: f64, moment: impl Fn(&Moments) -> (f64, f64)) -> Value {
-        let colours = self.colours();
-        Value::of_outcomes(|channel| {
+    /// w = c L a or c L with E[w²] = c Σ ∫ L² aᵏ dω: c = 2π and k = 2 for p = 1/2π, c = π and k = 1 for
+    /// p = cosθ_x/π.
+    fn over_hemisphere(&self, c: f64, k: usize) -> Result<Value, Error> {
+        let squared = self.seen.iter().map(|seen| seen.squared(k)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Value::of_outcomes(|channel| {
             let mut outcome = Outcome::default();
             let (mut second, mut second_error) = (0.0, 0.0);
-            for (seen, colour) in self.seen.iter().zip(&colours.0) {
-                let radiance = colour[channel];
-                let (moment, error) = moment(&seen.moments);
-                outcome.mean += radiance * seen.moments.m10;
-                outcome.mean_error += radiance * seen.moments.errors[1];
-                second += c * radiance * radiance * moment;
-                second_error += c * radiance * radiance * error;
+            for (seen, squared) in self.seen.iter().zip(&squared) {
+                let [mean, mean_error] = seen.in_channel(channel);
+                outcome.mean += mean;
+                outcome.mean_error += mean_error;
+                second += c * squared[channel][0];
+                second_error += c * squared[channel][1];
             }
             outcome.variance = second - outcome.mean * outcome.mean;
             outcome.error = second_error + 2.0 * outcome.mean * outcome.mean_error + 8.0 * EPSILON * second;
             outcome
-        })
+        }))
     }
 
     fn over_lights(&self, draw: Draw, selection: Selection) -> Result<Value, Error> {
@@ -118,7 +115,7 @@ impl Sight {
             return Ok(by_edges);
         }
         let law = picked::law(self, draw, selection, Method::Cubature)?;
-        self.consistent(law.outcome(|seen| colours.0[seen][LUMINANCE]))?;
+        self.consistent(law.outcome(&colours, LUMINANCE))?;
         let by_cubature = law.variance(&colours);
         Ok(if by_cubature.error_bound < by_edges.error_bound { by_cubature } else { by_edges })
     }
@@ -127,7 +124,7 @@ impl Sight {
     fn sum_of_laws(&self, laws: &[(Law, f64)]) -> Result<Value, Error> {
         let colours = self.colours();
         let sum = |channel: usize| {
-            let outcomes = laws.iter().map(|(law, n)| (law.outcome(|seen| colours.0[seen][channel]), n));
+            let outcomes = laws.iter().map(|(law, n)| (law.outcome(&colours, channel), n));
             outcomes.fold(Outcome::default(), |sum, (o, n)| Outcome {
                 mean: sum.mean + n * o.mean,
                 mean_error: sum.mean_error + n * o.mean_error,
@@ -140,10 +137,14 @@ impl Sight {
     }
 
     /// w = U − h with h the hidden part of the sample: V = E\[h²\] − E\[h\]², and E\[h²\] = A Σ L² (M_23 unhidden − M_23)/s².
-    fn control_variate(&self) -> Value {
+    /// Where a light emits by a texture, what is known is the light of its mean.
+    fn control_variate(&self) -> Result<Value, Error> {
+        if self.seen.iter().any(|seen| seen.glow.is_some()) {
+            return Err(Error::NoFormula);
+        }
         let (colours, area) = (self.colours(), self.total_area());
         let hidden = || self.seen.iter().zip(&colours.0).filter(|(seen, _)| seen.blocked);
-        Value::of_outcomes(|channel| {
+        Ok(Value::of_outcomes(|channel| {
             let (mut first, mut first_error, mut second, mut error) = (0.0, 0.0, 0.0, 0.0);
             for (Seen { open, moments, facet, .. }, colour) in hidden() {
                 let radiance = colour[channel];
@@ -157,7 +158,7 @@ impl Sight {
             let variance = second - first * first;
             let error = error + 2.0 * first * first_error + 16.0 * EPSILON * second.abs();
             Outcome { mean: first, mean_error: first_error, variance, error }
-        })
+        }))
     }
 
     /// α of a team's techniques with the weights of least variance, RGB.
@@ -169,12 +170,12 @@ impl Sight {
         if self.reflected.is_some() {
             return Err(Error::NotConstant);
         }
-        let alpha = Optimal::new(self, Members::new(self, team)?)?.alpha(&self.colours());
+        let alpha = Optimal::new(self, Members::new(self, team)?)?.alpha();
         Ok((0..team.members().count()).map(|k| [0, 1, 2].map(|channel| alpha[channel][k])).collect())
     }
 
     fn optimal(&self, team: Team) -> Result<Value, Error> {
-        let outcomes = Optimal::new(self, Members::new(self, team)?)?.outcomes(&self.colours())?;
+        let outcomes = Optimal::new(self, Members::new(self, team)?)?.outcomes()?;
         self.consistent(outcomes[LUMINANCE])?;
         Ok(Value::of_outcomes(|channel| outcomes[channel]))
     }

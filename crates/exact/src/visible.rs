@@ -24,7 +24,7 @@ impl Pieces {
         pieces
     }
 
-    fn push(&mut self, polygon: &[DVec3]) {
+    pub(crate) fn push(&mut self, polygon: &[DVec3]) {
         if polygon.len() > 2 {
             self.vertices.extend_from_slice(polygon);
             self.ends.push(self.vertices.len());

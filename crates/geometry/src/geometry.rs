@@ -1,5 +1,6 @@
 //! The geometry of a scene: y = vp(x, Ψ) and V(x, y).
 
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use crate::mesh::{Mesh, Triangle};
 use crate::ray::{Hit, Ray};
 use crate::target::Target;
 use crate::tracer::{BruteForce, Region, Tracer};
+use crate::veil::{Cover, Veil};
 
 /// A mesh, its targets, and a tracer that finds triangles.
 pub struct Geometry {
@@ -26,6 +28,17 @@ pub struct Geometry {
     spared: Vec<Box<[u32]>>,
     /// For each triangle that does not emit, the targets coplanar with it nearby.
     flush: HashMap<u32, Vec<u32>>,
+    /// How triangles block, where not all of them are opaque.
+    veil: Option<Veil>,
+}
+
+/// A surface that a line of sight meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    /// Which, and where.
+    pub hit: Hit,
+    /// The share of the light from behind that it stops: more than 0, at most 1.
+    pub share: f32,
 }
 
 impl Geometry {
@@ -54,7 +67,28 @@ impl Geometry {
             }
         }
         let clusters = Clusters::new(&mesh, &targets);
-        Self { mesh, targets, clusters, tracer, target_of, spared, flush }
+        Self { mesh, targets, clusters, tracer, target_of, spared, flush, veil: None }
+    }
+
+    /// The same geometry with triangles that are not opaque.
+    pub fn with_veil(self, veil: Option<Veil>) -> Self {
+        Self { veil, ..self }
+    }
+
+    /// How a triangle blocks.
+    #[inline]
+    pub fn cover(&self, triangle: u32) -> Cover {
+        self.veil.as_ref().map_or(Cover::Opaque, |veil| veil.cover(triangle))
+    }
+
+    /// Whether some triangles are not opaque.
+    pub fn is_veiled(&self) -> bool {
+        self.veil.is_some()
+    }
+
+    /// Whether some of a target is cut out.
+    pub fn is_cut(&self, target: u32) -> bool {
+        self.is_veiled() && self.targets[target as usize].triangles().any(|t| self.cover(t) == Cover::Cut)
     }
 
     /// All triangles.
@@ -72,19 +106,22 @@ impl Geometry {
         &self.clusters
     }
 
-    /// y = vp(x, Ψ): the first surface that the ray meets. Where an emitter is coplanar with it and the ray meets both,
-    /// the emitter. None too where the direction is not finite, or zero.
+    /// y = vp(x, Ψ): the first surface that the ray meets and does not pass. Where an emitter is coplanar with it and the ray
+    /// meets both, the emitter. None too where the direction is not finite, or zero.
     #[inline]
     pub fn vp(&self, ray: &Ray) -> Option<Hit> {
         if !ray.leads() {
             return None;
         }
-        self.tracer.closest(&self.mesh, ray).map(|hit| self.emitter_or(ray, hit))
+        match &self.veil {
+            None => self.tracer.closest(&self.mesh, ray).map(|hit| self.emitter_or(ray, hit)),
+            Some(veil) => self.first_that_ends(veil, ray),
+        }
     }
 
     /// y = vp(x, Ψ) of each ray, as [`Self::vp`] gives them: sooner where neighbours run alike, as those of a camera do.
     pub fn vp_of(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        if !rays.iter().all(Ray::leads) {
+        if self.is_veiled() || !rays.iter().all(Ray::leads) {
             return rays.iter().zip(hits).for_each(|(ray, hit)| *hit = self.vp(ray));
         }
         self.tracer.closest_of(&self.mesh, rays, hits);
@@ -96,12 +133,61 @@ impl Geometry {
     /// V(x, y) for the point y at distance `before` along the ray from x, on target `target`: whether nothing that may
     /// block this target stands between.
     pub fn visible(&self, ray: &Ray, before: f64, target: u32) -> bool {
+        if let (Some(veil), true) = (&self.veil, ray.leads()) {
+            let ends = |triangle| self.may_block(triangle, target) && self.ends(veil, ray, triangle);
+            return !self.tracer.any(&self.mesh, ray, before, ends);
+        }
         !ray.leads() || !self.tracer.any(&self.mesh, ray, before, |triangle| self.may_block(triangle, target))
     }
 
     /// Whether the ray meets any surface at a distance below `before`.
     pub fn blocked(&self, ray: &Ray, before: f64) -> bool {
         ray.leads() && self.tracer.any(&self.mesh, ray, before, |_| true)
+    }
+
+    /// The share of light from the point at distance `before` along the ray, on target `target`, that passes what is
+    /// blended in between: Π (1 − share).
+    pub fn transmittance(&self, ray: &Ray, before: f64, target: u32) -> f64 {
+        let Some(veil) = self.veil.as_ref().filter(|_| ray.leads()) else { return 1.0 };
+        let met = RefCell::new(Vec::new());
+        self.tracer.any(&self.mesh, ray, before, |triangle| {
+            if veil.cover(triangle) == Cover::Blended && self.may_block(triangle, target) {
+                met.borrow_mut().push(triangle);
+            }
+            false
+        });
+        let mut met = met.into_inner();
+        met.sort_unstable();
+        met.dedup();
+        let shares = met.into_iter().filter_map(|triangle| veil.met(&self.mesh, ray, triangle));
+        shares.map(|(_, share)| 1.0 - f64::from(share)).product()
+    }
+
+    /// Whether a point of a target's plane (world, metres) lies where the target is not there.
+    pub fn is_hole(&self, target: u32, y: DVec3) -> bool {
+        let Some(veil) = &self.veil else { return false };
+        let within = |triangle: u32| {
+            let [b, c] = self.mesh.triangle(triangle).barycentrics(y);
+            (b.min(c).min(1.0 - b - c), triangle, [b, c])
+        };
+        let triangles = self.targets[target as usize].triangles().map(within);
+        let innermost = triangles.reduce(|one, other| if other.0 > one.0 { other } else { one });
+        innermost
+            .is_some_and(|(_, triangle, at)| veil.cover(triangle) == Cover::Cut && veil.share_at(triangle, at) == 0.0)
+    }
+
+    /// The surfaces that a line of sight meets and shows, from the nearest on, up to the first that stops all light. An
+    /// emitter comes instead of what it is coplanar with.
+    pub fn layers(&self, ray: &Ray) -> Vec<Layer> {
+        let Some(veil) = &self.veil else {
+            return self.vp(ray).map(|hit| Layer { hit, share: 1.0 }).into_iter().collect();
+        };
+        let mut layers = self.all_met(ray, |triangle| veil.cover(triangle) != Cover::Opaque);
+        layers.retain(|layer| layer.share > 0.0);
+        let last = self.vp(ray);
+        layers.retain(|layer| last.is_none_or(|last| layer.hit.t < last.t));
+        layers.extend(last.map(|hit| Layer { hit, share: 1.0 }));
+        layers
     }
 
     /// Whether a triangle may stand between a target and what sees it: it is neither part of the target nor coplanar with it.
@@ -123,6 +209,55 @@ impl Geometry {
     /// Visits every triangle that touches the region, and possibly others.
     pub fn within(&self, region: &Region, visit: impl FnMut(u32) -> ControlFlow<()>) {
         self.tracer.within(&self.mesh, region, visit);
+    }
+
+    /// Every triangle that a ray meets and for which `asked` holds, with the share that it stops, from the nearest on.
+    fn all_met(&self, ray: &Ray, asked: impl Fn(u32) -> bool) -> Vec<Layer> {
+        let Some(veil) = self.veil.as_ref().filter(|_| ray.leads()) else { return Vec::new() };
+        let met = RefCell::new(Vec::new());
+        self.tracer.any(&self.mesh, ray, f64::INFINITY, |triangle| {
+            if asked(triangle) {
+                let layer =
+                    veil.met(&self.mesh, ray, triangle).map(|(t, share)| Layer { hit: Hit { t, triangle }, share });
+                met.borrow_mut().extend(layer);
+            }
+            false
+        });
+        let mut met = met.into_inner();
+        met.sort_by(|a, b| a.hit.t.total_cmp(&b.hit.t).then(a.hit.triangle.cmp(&b.hit.triangle)));
+        met.dedup();
+        met
+    }
+
+    /// Whether a ray that meets a triangle ends there.
+    fn ends(&self, veil: &Veil, ray: &Ray, triangle: u32) -> bool {
+        match veil.cover(triangle) {
+            Cover::Opaque => true,
+            Cover::Blended => false,
+            Cover::Cut => veil.met(&self.mesh, ray, triangle).is_some_and(|(_, share)| share > 0.0),
+        }
+    }
+
+    /// The first surface that a ray does not pass: the nearest of all, or where it passes that the nearest of the others.
+    #[cold]
+    fn first_that_ends(&self, veil: &Veil, ray: &Ray) -> Option<Hit> {
+        let nearest = self.tracer.closest(&self.mesh, ray)?;
+        let hit = if self.ends(veil, ray, nearest.triangle) { nearest } else { self.first_behind(veil, ray)? };
+        let emitter = self.emitter_or(ray, hit);
+        Some(if self.ends(veil, ray, emitter.triangle) { emitter } else { hit })
+    }
+
+    fn first_behind(&self, veil: &Veil, ray: &Ray) -> Option<Hit> {
+        let best: Cell<Option<Hit>> = Cell::new(None);
+        self.tracer.any(&self.mesh, ray, f64::INFINITY, |triangle| {
+            if self.ends(veil, ray, triangle) {
+                let hit = veil.met(&self.mesh, ray, triangle).map(|(t, _)| Hit { t, triangle });
+                let nearer = hit.filter(|hit| best.get().is_none_or(|best| hit.before(&best)));
+                best.set(nearer.or(best.get()));
+            }
+            false
+        });
+        best.get()
     }
 
     /// The emitter that is coplanar with what is met, where the ray meets it too.

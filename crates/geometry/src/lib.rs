@@ -18,5 +18,6 @@ pub mod solid_angle;
 pub mod target;
 pub mod tracer;
 pub mod vector;
+pub mod veil;
 pub mod view;
 pub mod wide;

@@ -65,6 +65,16 @@ impl Triangle {
         0.5 * self.cross().length()
     }
 
+    /// The b₁ and b₂ of the point (1 − b₁ − b₂) a + b₁ b + b₂ c of its plane that is nearest to `point` (world, metres); not
+    /// finite where the triangle has no area.
+    pub fn barycentrics(&self, point: DVec3) -> [f64; 2] {
+        let [a, b, c] = self.vertices();
+        let normal = (b - a).cross(c - a);
+        let per_square = 1.0 / normal.length_squared();
+        let dual = |side: DVec3| side.dot(point - a) * per_square;
+        [dual((c - a).cross(normal)), dual(normal.cross(b - a))]
+    }
+
     /// The largest magnitude among the nine coordinates, the scale of the blocking rule's tolerance.
     pub fn magnitude(&self) -> f64 {
         let largest = self.a.abs().max(self.b.abs()).max(self.c.abs());

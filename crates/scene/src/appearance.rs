@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::attributes::Attributes;
 use crate::mapping::Mapping;
 use crate::material::{Alpha, Material};
 use crate::scene::Scene;
@@ -51,20 +52,51 @@ impl Scene {
             return material.by_factors();
         };
         let (vertices, weights) = (self.vertices_in(surface, triangle), [1.0 - b1 - b2, b1, b2]);
-        let texel = |mapping: &Option<Mapping>| {
-            let mapping = mapping.as_ref()?;
-            let corners = attributes.coordinates(mapping.set, vertices)?;
-            let uv: DVec2 = corners.iter().zip(weights).map(|(&corner, weight)| corner * weight).sum();
-            Some(mapping.at(&self.textures, uv))
-        };
-        let white = [1.0; 4];
-        let base = texel(&material.base_color_texture).unwrap_or(white);
-        let color = attributes.colors(vertices).map_or(white, |colors| mean(&colors, weights));
-        let [_, rough, metal, _] = texel(&material.metallic_roughness_texture).unwrap_or(white);
-        let [red, green, blue, _] = texel(&material.emissive_texture).unwrap_or(white);
-        let base = product(product(material.base_color, base), color);
+        let texel = |mapping: &Option<Mapping>| self.texel(mapping.as_ref(), attributes, vertices, weights);
+        let [_, rough, metal, _] = texel(&material.metallic_roughness_texture);
+        let [red, green, blue, _] = texel(&material.emissive_texture);
+        let base = self.base_color(material, attributes, vertices, weights);
         let emission = product(material.emission, [red, green, blue]);
         material.appearance(base, [material.metallic * metal, material.roughness * rough], emission)
+    }
+
+    /// How much of the light the surface stops at that point of `triangle`: [`Appearance::alpha`].
+    pub fn alpha_at(&self, triangle: u32, [b1, b2]: [f64; 2]) -> f32 {
+        let surface = self.surface_of(triangle);
+        let material = &self.materials[surface.material];
+        let weights = [1.0 - b1 - b2, b1, b2];
+        let [.., alpha] = match &surface.attributes {
+            Some(attributes) => self.base_color(material, attributes, self.vertices_in(surface, triangle), weights),
+            None => material.base_color,
+        };
+        material.alpha.of(alpha)
+    }
+
+    /// Factor × texture × vertex colour.
+    fn base_color(
+        &self,
+        material: &Material,
+        attributes: &Attributes,
+        vertices: [usize; 3],
+        weights: [f64; 3],
+    ) -> [f32; 4] {
+        let texel = self.texel(material.base_color_texture.as_ref(), attributes, vertices, weights);
+        let color = attributes.colors(vertices).map_or(WHITE, |colors| mean(&colors, weights));
+        product(product(material.base_color, texel), color)
+    }
+
+    /// What a texture shows, white where there is none.
+    fn texel(
+        &self,
+        mapping: Option<&Mapping>,
+        attributes: &Attributes,
+        vertices: [usize; 3],
+        weights: [f64; 3],
+    ) -> [f32; 4] {
+        let Some(mapping) = mapping else { return WHITE };
+        let Some(corners) = attributes.coordinates(mapping.set, vertices) else { return WHITE };
+        let uv: DVec2 = corners.iter().zip(weights).map(|(&corner, weight)| corner * weight).sum();
+        mapping.at(&self.textures, uv)
     }
 
     /// Whether `triangle` is the same all over: its material shows no texture on it, and its vertices have no colours.
@@ -78,10 +110,29 @@ impl Scene {
     }
 }
 
+impl Alpha {
+    /// How much of the light a surface stops whose factor, texture and vertex colour come to `alpha`.
+    pub(crate) fn of(self, alpha: f32) -> f32 {
+        match self {
+            Self::Opaque => 1.0,
+            Self::Mask(cutoff) if alpha >= cutoff => 1.0,
+            Self::Mask(_) => 0.0,
+            Self::Blend => alpha,
+        }
+    }
+}
+
+const WHITE: [f32; 4] = [1.0; 4];
+
 impl Material {
     /// What the surface is by the factors alone, whatever textures and vertex colours show.
     pub fn by_factors(&self) -> Appearance {
         self.appearance(self.base_color, [self.metallic, self.roughness], self.emission)
+    }
+
+    /// Whether it has a highlight somewhere: by its factors, or as far as a texture may say so.
+    pub fn may_be_glossy(&self) -> bool {
+        self.by_factors().is_glossy() || self.metallic_roughness_texture.is_some()
     }
 
     fn appearance(
@@ -90,14 +141,8 @@ impl Material {
         [metallic, roughness]: [f32; 2],
         emission: [f32; 3],
     ) -> Appearance {
-        let alpha = match self.alpha {
-            Alpha::Opaque => 1.0,
-            Alpha::Mask(cutoff) if alpha >= cutoff => 1.0,
-            Alpha::Mask(_) => 0.0,
-            Alpha::Blend => alpha,
-        };
-        let (base_color, specular, f_0) = ([red, green, blue], self.specular, self.f_0);
-        Appearance { base_color, alpha, metallic, roughness, specular, f_0, emission }
+        let (alpha, base_color) = (self.alpha.of(alpha), [red, green, blue]);
+        Appearance { base_color, alpha, metallic, roughness, specular: self.specular, f_0: self.f_0, emission }
     }
 }
 

@@ -40,6 +40,11 @@ impl Attributes {
         self.colors.as_ref().map(|colors| vertices.map(|vertex| colors[vertex]))
     }
 
+    /// The least alpha of its vertices' colours; 1 without any.
+    pub(crate) fn least_alpha(&self) -> f32 {
+        self.colors.iter().flatten().map(|[.., alpha]| *alpha).fold(1.0, f32::min)
+    }
+
     /// Whether its vertices have colours that are not all white.
     pub(crate) fn is_coloured(&self) -> bool {
         self.colors.is_some()

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use twoforms_geometry::mesh::Mesh;
 use twoforms_geometry::target::{Shape, Target};
 
+use crate::footprint;
 use crate::glow::Glow;
 use crate::scene::Scene;
 use crate::texture::Texture;
@@ -70,6 +71,33 @@ impl Emission {
 }
 
 impl Pattern {
+    /// The coordinates (b, d) of a point of the target's plane: y = corner + b e + d f, with e the side from the first
+    /// corner to the next and f the one from the first corner to the last.
+    pub fn coordinates(&self, y: DVec3) -> [f64; 2] {
+        self.plane.duals.map(|dual| dual.dot(y - self.plane.corner))
+    }
+
+    /// Where the first corner, the next and the last lie in the texture's grid: between whole numbers of both coordinates
+    /// the texture is one bilinear map.
+    pub fn corners_in_grid(&self) -> [DVec2; 3] {
+        let [e, f] = self.plane.slopes;
+        [self.origin, self.origin + e, self.origin + f].map(|uv| self.texture.grid(uv))
+    }
+
+    /// `L_e` in binary64 at a place of the texture's grid.
+    pub fn at_grid(&self, place: DVec2) -> [f64; 3] {
+        let corner = place.floor();
+        let texel = self.texture.cell(corner).exactly(place - corner);
+        std::array::from_fn(|channel| f64::from(self.scale[channel]) * texel[channel])
+    }
+
+    /// Mean of `L_e` over a triangle on the target, given by the coordinates of its corners.
+    pub fn mean_over(&self, corners: [[f64; 2]; 3]) -> [f64; 3] {
+        let [e, f] = self.plane.slopes;
+        let mean = footprint::mean(&self.texture, corners.map(|[b, d]| self.origin + b * e + d * f));
+        std::array::from_fn(|channel| f64::from(self.scale[channel]) * mean[channel])
+    }
+
     fn new(glow: &Glow<'_>, mesh: &Mesh, target: &Target, mean: [f64; 3]) -> Self {
         let ([a, b, c, d], triangle) = match target.shape {
             Shape::Triangle(t) => {

@@ -40,6 +40,15 @@ impl Image {
         }
     }
 
+    /// The least alpha of its texels.
+    pub(crate) fn least_alpha(&self) -> f32 {
+        let least = match &self.texels {
+            Texels::Eight(texels) => texels.iter().skip(3).step_by(4).min().map(|&c| EIGHT.linear[usize::from(c)]),
+            Texels::Sixteen(texels) => texels.iter().skip(3).step_by(4).min().map(|&c| SIXTEEN.linear[usize::from(c)]),
+        };
+        least.unwrap_or(1.0)
+    }
+
     /// The linear red, green, blue and alpha of the texel in column x and row y, which lie inside the image.
     pub(crate) fn texel(&self, x: usize, y: usize, encoding: Encoding) -> [f32; 4] {
         let at = 4 * (y * self.width as usize + x);

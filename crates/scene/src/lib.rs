@@ -8,9 +8,10 @@
 //!   base colour, metallic and roughness, and emission, from PNG and JPEG, with all wraps, any set of coordinates and
 //!   `KHR_texture_transform`; vertex colours; alpha modes. Textures are looked up at points, nearest or bilinearly as
 //!   `magFilter` says: there are no reduced images. What a surface is at a point is [`Scene::appearance_at`], what leaves
-//!   a target [`Scene::target_emission`].
-//! - **Read otherwise, with a line in [`Scene::warnings`]**: unlit materials (black), mirrors (a little rough), textures that
-//!   cannot be used, normal maps, punctual lights, points and lines, skins, morph targets and animations.
+//!   a target [`Scene::target_emission`], what light passes [`Scene::veil`].
+//! - **Read otherwise, with a line in [`Scene::warnings`]**: unlit materials (black), mirrors (a little rough), emitters that are
+//!   blended (opaque), textures that cannot be used, normal and occlusion textures, punctual lights, points and lines, skins,
+//!   morph targets and animations.
 //! - **Refused, with a [`SceneError`]**: whatever would make a light or a surface other than the file means it: broken
 //!   buffers and indices, NaN, compressed meshes, broken textures on emitters, unknown required extensions.
 
@@ -51,6 +52,7 @@ mod surface;
 mod texture;
 mod textures;
 mod transform;
+mod veil;
 mod view;
 mod warnings;
 

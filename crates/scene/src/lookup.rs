@@ -52,23 +52,6 @@ impl Scene {
         Err(SceneError::at(&self.path, problem))
     }
 
-    /// Checks that every light has one radiance, for commands that take it to be so.
-    ///
-    /// # Errors
-    /// [`Problem::Unsupported`], which names the first light that emits by a texture.
-    pub fn require_constant_emission(&self) -> Result<(), SceneError> {
-        let Some(light) = self.lights.iter().find(|light| light.is_textured()) else {
-            return Ok(());
-        };
-        let triangle = self.targets[light.targets.start as usize].first();
-        let (material, name) = (&self.material_of(triangle).name, &light.name);
-        let problem = Problem::Unsupported {
-            what: format!("material {material:?} of {name:?} emits by an emissiveTexture, which is not sampled"),
-            remedy: "give it a constant emissiveFactor without the texture".into(),
-        };
-        Err(SceneError::at(&self.path, problem))
-    }
-
     fn lost_lights_clause(&self) -> String {
         match self.lost_lights.as_slice() {
             [] => String::new(),

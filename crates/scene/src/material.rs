@@ -89,7 +89,7 @@ pub(crate) fn read(
     let used: BTreeSet<usize> = surfaces.iter().map(|surface| surface.material).collect();
     for &index in &used {
         if let Some(material) = root.materials.get(index) {
-            warn(material, &materials[index].name, warnings);
+            warn(material, &mut materials[index], warnings);
             texture(&mut materials[index], material, &mut textures, warnings)?;
         }
     }
@@ -202,25 +202,26 @@ pub(crate) fn is_unlit(material: &json::Material) -> bool {
     material.extensions.as_ref().is_some_and(|extensions| extensions.unlit.is_some())
 }
 
-fn warn(material: &json::Material, name: &str, warnings: &mut Warnings) {
-    let pbr = &material.pbr_metallic_roughness;
-    let textured = pbr.base_color_texture.is_some()
-        || pbr.metallic_roughness_texture.is_some()
-        || material.normal_texture.is_some()
-        || material.occlusion_texture.is_some();
-    let specular = material.extensions.as_ref().and_then(|extensions| extensions.specular.as_ref());
+/// Warns about what a material loses. A surface that emits and is blended is taken to be opaque.
+fn warn(json: &json::Material, material: &mut Material, warnings: &mut Warnings) {
+    let pbr = &json.pbr_metallic_roughness;
+    let blended = material.emits() && material.alpha == Alpha::Blend;
+    let specular = json.extensions.as_ref().and_then(|extensions| extensions.specular.as_ref());
     let textured_highlight = specular
         .is_some_and(|specular| specular.specular_texture.is_some() || specular.specular_color_texture.is_some());
     let mirror = pbr.roughness_factor.0 < SMOOTHEST;
-    let opaque = material.alpha_mode == Valid(AlphaMode::Opaque);
     let losses = [
-        (is_unlit(material), "an unlit material is black and emits nothing"),
-        (textured, "textures are ignored, factors alone count"),
+        (is_unlit(json), "an unlit material is black and emits nothing"),
+        (json.normal_texture.is_some(), "normal textures are ignored, surfaces are flat"),
+        (json.occlusion_texture.is_some(), "occlusion textures are ignored, what blocks is what is there"),
         (textured_highlight, "textures of highlights are ignored, factors alone count"),
-        (mirror && !is_unlit(material), "a mirror has no f_r and is taken as rough as 1/32"),
-        (!opaque, "alpha is ignored, surfaces are opaque"),
+        (mirror && !is_unlit(json), "a mirror has no f_r and is taken as rough as 1/32"),
+        (blended, "a surface that emits is opaque, though it is to be blended"),
     ];
     for (_, text) in losses.iter().filter(|(lost, _)| *lost) {
-        warnings.at(text, name);
+        warnings.at(text, &material.name);
+    }
+    if blended {
+        material.alpha = Alpha::Opaque;
     }
 }

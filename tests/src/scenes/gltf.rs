@@ -7,12 +7,15 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
+use super::part::Pattern;
 use super::{Answer, Material, Part, Receiver, Scene};
 
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 const U16: u32 = 5123;
 const F32: u32 = 5126;
+const NEAREST: u32 = 9728;
+const CLAMP: u32 = 33071;
 
 /// The whole document.
 pub fn document(scene: &Scene) -> Value {
@@ -23,14 +26,21 @@ pub fn document(scene: &Scene) -> Value {
         "scenes": [scene_entry(scene)],
         "nodes": nodes(scene),
         "cameras": [camera(scene)],
-        "meshes": parts.iter().enumerate().map(|(i, part)| mesh(i, part)).collect::<Vec<_>>(),
-        "materials": parts.iter().map(material).collect::<Vec<_>>(),
+        "meshes": (0..parts.len()).map(|i| mesh(parts, i)).collect::<Vec<_>>(),
+        "materials": (0..parts.len()).map(|i| material(parts, i)).collect::<Vec<_>>(),
         "accessors": accessors(parts),
         "bufferViews": buffer_views(parts),
         "buffers": [buffer(parts)],
     });
     if parts.iter().any(|part| emissive_strength(&part.material) > 1.0) {
         document["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+    }
+    let patterns: Vec<Pattern> = parts.iter().filter_map(|part| part.pattern).collect();
+    if !patterns.is_empty() {
+        let texture = |k: usize| json!({"sampler": 0, "source": k});
+        document["samplers"] = json!([{"magFilter": NEAREST, "minFilter": NEAREST, "wrapS": CLAMP, "wrapT": CLAMP}]);
+        document["textures"] = (0..patterns.len()).map(texture).collect();
+        document["images"] = patterns.iter().map(image).collect();
     }
     document
 }
@@ -89,13 +99,32 @@ fn camera(scene: &Scene) -> Value {
     })
 }
 
-fn mesh(index: usize, part: &Part) -> Value {
-    let primitive = json!({
+fn mesh(parts: &[Part], index: usize) -> Value {
+    let mut primitive = json!({
         "attributes": {"POSITION": 2 * index},
         "indices": 2 * index + 1,
         "material": index,
     });
-    json!({"name": part.name, "primitives": [primitive]})
+    if parts[index].pattern.is_some() {
+        primitive["attributes"]["TEXCOORD_0"] = json!(2 * parts.len() + number_of_pattern(parts, index));
+    }
+    json!({"name": parts[index].name, "primitives": [primitive]})
+}
+
+/// Which of the patterns is that of a part.
+fn number_of_pattern(parts: &[Part], index: usize) -> usize {
+    parts[..index].iter().filter(|part| part.pattern.is_some()).count()
+}
+
+/// A pattern as an image of two by two texels.
+fn image(pattern: &Pattern) -> Value {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(png::Compression::NoCompression);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pattern.concat()));
+    written.expect("four texels can be written");
+    json!({"uri": format!("data:image/png;base64,{}", STANDARD.encode(&bytes))})
 }
 
 /// The power of two that scales the radiance to an `emissiveFactor` of at most 1 without rounding.
@@ -108,7 +137,8 @@ fn emissive_strength(material: &Material) -> f32 {
     strength
 }
 
-fn material(part: &Part) -> Value {
+fn material(parts: &[Part], index: usize) -> Value {
+    let part = &parts[index];
     let [r, g, b] = part.material.albedo;
     let mut material = json!({
         "name": part.name,
@@ -124,6 +154,9 @@ fn material(part: &Part) -> Value {
     if part.material.emits() {
         let strength = emissive_strength(&part.material);
         material["emissiveFactor"] = json!(part.material.radiance.map(|l| l / strength));
+        if part.pattern.is_some() {
+            material["emissiveTexture"] = json!({"index": number_of_pattern(parts, index)});
+        }
         if strength > 1.0 {
             material["extensions"] = json!({"KHR_materials_emissive_strength": {"emissiveStrength": strength}});
         }
@@ -160,7 +193,22 @@ fn accessors(parts: &[Part]) -> Vec<Value> {
         positions_offset += 12 * positions.len();
         indices_offset += 2 * indices.len();
     }
+    let mut coordinates_offset = 0;
+    for part in parts.iter().filter(|part| part.pattern.is_some()) {
+        let count = positions(part).len();
+        accessors.push(json!({
+            "bufferView": 2, "byteOffset": coordinates_offset, "componentType": F32, "count": count, "type": "VEC2",
+        }));
+        coordinates_offset += 8 * count;
+    }
     accessors
+}
+
+/// The corners of the texture, around each polygon of the parts that have a pattern.
+fn coordinate_bytes(parts: &[Part]) -> Vec<u8> {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let polygons = parts.iter().filter(|part| part.pattern.is_some()).flat_map(|part| &part.polygons);
+    polygons.flat_map(|_| corners).flatten().flat_map(f32::to_le_bytes).collect()
 }
 
 fn positions_accessor(positions: &[Vec3], offset: usize) -> Value {
@@ -183,14 +231,31 @@ fn index_bytes(parts: &[Part]) -> Vec<u8> {
 
 fn buffer_views(parts: &[Part]) -> Value {
     let (vertices, indices) = (position_bytes(parts).len(), index_bytes(parts).len());
-    json!([
+    let mut views = json!([
         {"buffer": 0, "byteLength": vertices, "byteStride": 12, "target": VERTICES},
         {"buffer": 0, "byteOffset": vertices, "byteLength": indices, "target": INDICES},
-    ])
+    ]);
+    let coordinates = coordinate_bytes(parts).len();
+    if let (Some(views), true) = (views.as_array_mut(), coordinates > 0) {
+        let offset = vertices + padded(indices);
+        let view =
+            json!({"buffer": 0, "byteOffset": offset, "byteLength": coordinates, "byteStride": 8, "target": VERTICES});
+        views.push(view);
+    }
+    views
+}
+
+/// The next multiple of four, at which numbers of four bytes may begin.
+fn padded(length: usize) -> usize {
+    length.next_multiple_of(4)
 }
 
 fn buffer(parts: &[Part]) -> Value {
-    let bytes = [position_bytes(parts), index_bytes(parts)].concat();
+    let (mut indices, coordinates) = (index_bytes(parts), coordinate_bytes(parts));
+    if !coordinates.is_empty() {
+        indices.resize(padded(indices.len()), 0);
+    }
+    let bytes = [position_bytes(parts), indices, coordinates].concat();
     let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes));
     json!({"byteLength": bytes.len(), "uri": uri})
 }

@@ -7,6 +7,7 @@ mod answer;
 mod camera;
 mod cornell;
 mod cubature;
+mod four_colours;
 mod furnace;
 mod gltf;
 mod json;
@@ -73,6 +74,6 @@ impl Scene {
 pub fn all() -> Vec<Scene> {
     let mut scenes = vec![cornell::with_blocks(), cornell::empty(), square_light::scene()];
     scenes.extend(nori::scenes());
-    scenes.extend([two_lights::scene(), furnace::scene(), tiny_far_light::scene()]);
+    scenes.extend([two_lights::scene(), furnace::scene(), tiny_far_light::scene(), four_colours::scene()]);
     scenes
 }

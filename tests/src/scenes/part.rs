@@ -13,12 +13,38 @@ pub struct Part {
     pub material: Material,
     /// Convex polygons; the front is the side from which they run counter-clockwise.
     pub polygons: Vec<Vec<Vec3>>,
+    /// What its radiance is multiplied with, over each of its polygons, which are parallelograms.
+    pub pattern: Option<Pattern>,
 }
+
+/// Two by two texels, each a part of the sRGB code values 0 and 255: the first spans half of a parallelogram's first side and
+/// half of its last, the second lies beside it along the first side.
+pub type Pattern = [[u8; 3]; 4];
 
 impl Part {
     /// A part of the given polygons.
     pub fn new(name: &'static str, material: Material, polygons: Vec<Vec<Vec3>>) -> Self {
-        Self { name, material, polygons }
+        Self { name, material, polygons, pattern: None }
+    }
+
+    /// The same part with a pattern.
+    pub fn with_pattern(self, pattern: Pattern) -> Self {
+        Self { pattern: Some(pattern), ..self }
+    }
+
+    /// A part for each texel of the pattern; the part itself where it has none.
+    pub fn texels(&self) -> Vec<Self> {
+        let Some(pattern) = &self.pattern else { return vec![self.clone()] };
+        let texel = |k: usize, polygon: &Vec<Vec3>| {
+            let [u, v] = [polygon[1] - polygon[0], polygon[3] - polygon[0]].map(|side| 0.5 * side);
+            parallelogram(polygon[0] + u * (k % 2) as f32 + v * (k / 2) as f32, u, v)
+        };
+        let part = |(k, codes): (usize, &[u8; 3])| {
+            let light = |c: usize| self.material.radiance[c] * f32::from(codes[c] / u8::MAX);
+            let material = Material { radiance: [0, 1, 2].map(light), ..self.material };
+            Self::new(self.name, material, self.polygons.iter().map(|polygon| texel(k, polygon)).collect())
+        };
+        pattern.iter().enumerate().map(part).collect()
     }
 
     /// The triangles that the file holds: each polygon as a fan about its first corner.

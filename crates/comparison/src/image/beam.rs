@@ -10,7 +10,7 @@ use twoforms_geometry::view::{View, Vista};
 
 use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Sum};
 use super::face::Face;
-use super::painter::{Painter, Surface};
+use super::painter::{Painter, Surface, Varies};
 use super::receive::Receive;
 use super::{Centre, Crop, Pixel, PixelFilter, tile};
 use crate::error::BrokenPixel;
@@ -106,12 +106,38 @@ impl<'a> Beam<'a> {
 
     /// Samples the lights wherever a pane is met: together, or where its points see the lights too differently one by one.
     fn light(&self, chunk: &mut Chunk, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
+        if stage.surface.varies == Varies::Wholly {
+            return self.shade_each(chunk, pane);
+        }
         let emission = stage.surface.emission;
         if emission != [0.0; 3] {
             for k in chunk.that_meet(pane).collect::<Vec<_>>() {
                 chunk.add(k, emission, 0);
             }
         }
+        self.receive(chunk, stage, pane)?;
+        if stage.surface.varies == Varies::InColour {
+            for k in chunk.that_meet(pane).collect::<Vec<_>>() {
+                let colour = self.painter.colour(&self.met(chunk, k, pane));
+                chunk.colour(k, colour.albedo);
+                chunk.add(k, colour.emission, 0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Asks about each point by itself.
+    fn shade_each(&self, chunk: &mut Chunk, pane: u32) -> Result<(), (usize, NotFinite)> {
+        for k in chunk.that_meet(pane).collect::<Vec<_>>() {
+            let shaded =
+                self.painter.shade(&self.met(chunk, k, pane), chunk.stream(k)).map_err(|source| (k, source))?;
+            chunk.add(k, shaded.value, shaded.rays as u32 - 1);
+        }
+        Ok(())
+    }
+
+    /// Adds the light that the pane receives, wherever it is met.
+    fn receive(&self, chunk: &mut Chunk, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
         let Some(query) = &stage.surface.query else { return Ok(()) };
         if let Some(Lit { view, along }) = &stage.lit {
             let light = self.painter.light_samples();
@@ -120,9 +146,8 @@ impl<'a> Beam<'a> {
             return Ok(());
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
-            let seen = self.seen(pane as usize, DVec3::from_array(chunk.toward(k).map(f64::from)));
-            let Some(query) = self.painter.surface(&seen).query else { continue };
-            let (value, rays) = self.painter.receive(&seen, &query, chunk.stream(k)).map_err(|source| (k, source))?;
+            let seen = self.met(chunk, k, pane);
+            let (value, rays) = self.painter.receive(&seen, query, chunk.stream(k)).map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
         Ok(())
@@ -145,6 +170,11 @@ impl<'a> Beam<'a> {
     /// The point of a pane's plane in a direction from the eye, in its frame.
     fn seen(&self, pane: usize, toward: DVec3) -> Seen {
         self.faces[pane].seen(self.eye.to_world(toward))
+    }
+
+    /// The point of a pane that a camera sample meets.
+    fn met(&self, chunk: &Chunk, k: usize, pane: u32) -> Seen {
+        self.seen(pane as usize, DVec3::from_array(chunk.toward(k).map(f64::from)))
     }
 
     /// What lies at the centres of pixels.

@@ -158,6 +158,13 @@ impl Chunk {
         self.rays[k] += rays;
     }
 
+    /// Multiplies the value of a sample, RGB.
+    pub(super) fn colour(&mut self, k: usize, by: [f64; 3]) {
+        for c in 0..3 {
+            self.value[c][k] *= by[c];
+        }
+    }
+
     /// How many camera samples there are.
     pub(super) fn len(&self) -> usize {
         self.len

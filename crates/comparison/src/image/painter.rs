@@ -9,6 +9,7 @@ use twoforms_estimator::strategy::{Known, Prepared};
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::lanes::Instructions;
+use twoforms_geometry::ray::Ray;
 use twoforms_geometry::vector::round;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_scene::Camera;
@@ -36,9 +37,9 @@ pub(super) struct Painter<'a> {
 }
 
 /// The value of one camera sample.
-struct Shaded {
-    value: [f64; 3],
-    rays: u64,
+pub(super) struct Shaded {
+    pub(super) value: [f64; 3],
+    pub(super) rays: u64,
 }
 
 /// What a surface adds to a camera sample by itself, and what is asked of the light that it receives; nothing where it
@@ -46,6 +47,27 @@ struct Shaded {
 pub(super) struct Surface<'w> {
     pub(super) emission: [f64; 3],
     pub(super) query: Option<Query<'w>>,
+    pub(super) varies: Varies,
+}
+
+/// How far a surface is not the same all over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Varies {
+    /// It is.
+    No,
+    /// It is asked about as if it were white and dark: what it adds and how it colours what it receives is told for each of its
+    /// points, by [`Painter::colour`].
+    InColour,
+    /// In its highlight too: what is said of it holds at one point, and each is asked about by itself.
+    Wholly,
+}
+
+/// What a surface that varies in colour is at one point.
+pub(super) struct Colour {
+    /// L_e toward the eye, RGB.
+    pub(super) emission: [f64; 3],
+    /// ρ, RGB.
+    pub(super) albedo: [f64; 3],
 }
 
 impl<'a> Painter<'a> {
@@ -112,19 +134,45 @@ impl<'a> Painter<'a> {
             }
             PixelFilter::Point => [0.5; 2],
         };
-        match self.look(f64::from(x) + dx, f64::from(y) + dy) {
+        let (x, y) = (f64::from(x) + dx, f64::from(y) + dy);
+        if self.world.geometry.is_veiled() {
+            return self.shade_through(x, y, stream);
+        }
+        match self.look(x, y) {
             None => Ok(Shaded { value: [0.0; 3], rays: 1 }),
             Some(seen) => self.shade(&seen, stream),
         }
     }
 
+    /// What is seen through surfaces that are not opaque, each by the same light samples.
+    fn shade_through(&self, x: f64, y: f64, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+        let mut sum = Shaded { value: [0.0; 3], rays: 1 };
+        for (seen, weight) in self.world.see_through(&self.ray(x, y)) {
+            let Shaded { value, rays } = self.shade(&seen, stream)?;
+            sum.value = std::array::from_fn(|c| sum.value[c] + weight * value[c]);
+            sum.rays += rays - 1;
+        }
+        Ok(sum)
+    }
+
     /// What a surface shows of itself and asks of the light.
     pub(super) fn surface(&self, seen: &Seen) -> Surface<'a> {
         let Rendering { cull, quantity, .. } = *self.rendering;
-        let emission = if quantity == Shown::Irradiance { [0.0; 3] } else { self.world.emission(seen) };
-        let culled = cull && !seen.front && !self.world.scene.material_of(seen.triangle).double_sided;
-        let query = if culled { None } else { self.query(seen) };
-        Surface { emission: emission.map(f64::from), query }
+        let (scene, radiance) = (&self.world.scene, quantity != Shown::Irradiance);
+        let material = scene.material_of(seen.triangle);
+        let varies = match quantity {
+            _ if !radiance || scene.is_uniform(seen.triangle) => Varies::No,
+            Shown::Radiance if material.may_be_glossy() => Varies::Wholly,
+            _ => Varies::InColour,
+        };
+        let emission = if radiance && varies != Varies::InColour { self.world.emission(seen) } else { [0.0; 3] };
+        let query = match varies {
+            _ if cull && !seen.front && !material.double_sided => None,
+            Varies::InColour if material.albedo == [0.0; 3] => None,
+            Varies::InColour => Some(Query::radiance(&self.world.lights, [1.0; 3])),
+            _ => self.query(seen),
+        };
+        Surface { emission: emission.map(f64::from), query, varies }
     }
 
     /// What is asked of the light at what is seen; nothing where that reflects none.
@@ -135,7 +183,7 @@ impl<'a> Painter<'a> {
             Shown::Diffuse => None,
             Shown::Radiance => world.highlight(seen),
         };
-        let albedo = world.appearance(seen).albedo();
+        let albedo = world.albedo(seen);
         let reflection = match highlight {
             Some(surface) => Reflection::Glossy { surface, eye: self.camera.position },
             None if albedo == [0.0; 3] => return None,
@@ -144,11 +192,23 @@ impl<'a> Painter<'a> {
         Some(reflection.query(lights, &Frame::new(seen.position, seen.normal)))
     }
 
+    /// What a surface that varies in colour is where it is seen.
+    pub(super) fn colour(&self, seen: &Seen) -> Colour {
+        let (emission, albedo) = (self.world.emission(seen), self.world.albedo(seen));
+        Colour { emission: emission.map(f64::from), albedo: albedo.map(f64::from) }
+    }
+
     /// L_e of what is seen, plus what it reflects.
-    fn shade(&self, seen: &Seen, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
-        let Surface { emission, query } = self.surface(seen);
-        let Some(query) = query else { return Ok(Shaded { value: emission, rays: 1 }) };
-        let (value, rays) = self.receive(seen, &query, stream)?;
+    pub(super) fn shade(&self, seen: &Seen, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+        let Surface { mut emission, query, varies } = self.surface(seen);
+        let (mut value, mut rays) = ([0.0; 3], 0);
+        if let Some(query) = query {
+            (value, rays) = self.receive(seen, &query, stream)?;
+        }
+        if varies == Varies::InColour {
+            let colour = self.colour(seen);
+            (emission, value) = (colour.emission, std::array::from_fn(|c| value[c] * colour.albedo[c]));
+        }
         Ok(Shaded { value: std::array::from_fn(|c| emission[c] + value[c]), rays: rays + 1 })
     }
 
@@ -186,13 +246,16 @@ impl<'a> Painter<'a> {
 
     /// Direction from the camera through a point of the image, in pixels.
     pub(super) fn toward(&self, x: f64, y: f64) -> DVec3 {
-        let Rendering { width, height, .. } = *self.rendering;
-        viewpoint::ray(self.camera, [x, y], [width, height]).direction
+        self.ray(x, y).direction
     }
 
     fn look(&self, x: f64, y: f64) -> Option<Seen> {
+        self.world.see(&self.ray(x, y))
+    }
+
+    fn ray(&self, x: f64, y: f64) -> Ray {
         let Rendering { width, height, .. } = *self.rendering;
-        self.world.see(&viewpoint::ray(self.camera, [x, y], [width, height]))
+        viewpoint::ray(self.camera, [x, y], [width, height])
     }
 
     fn centre(&self, x: u32, y: u32) -> Option<Centre> {
@@ -206,7 +269,7 @@ impl<'a> Painter<'a> {
             position: round(seen.position),
             normal: round(seen.normal),
             depth: toward.dot(self.camera.forward) as f32,
-            albedo: self.world.scene.albedo(seen.triangle),
+            albedo: self.world.albedo(seen),
         }
     }
 }

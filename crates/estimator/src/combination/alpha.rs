@@ -3,6 +3,7 @@
 
 use std::array::from_fn;
 
+use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Mask;
 use twoforms_geometry::view::View;
 
@@ -78,8 +79,10 @@ impl Mis<'_> {
                         sums.miss(i, f64::from(*n));
                         continue;
                     }
-                    let (q, Rgb(f)) =
-                        (self.expected(&from, i, &found), self.query.received(&from, &found.y, &found.xy));
+                    let (q, Rgb(f)) = (
+                        self.expected(&from, i, &found),
+                        self.query.received(&from, Masked::new(found.y, found.seen), &found.xy),
+                    );
                     let p = from_fn(|k| self.team.get(k).map_or(0.0, |(_, n)| f64::from(q[k]) / f64::from(*n)));
                     sums.meet(p, q.iter().map(|&q| f64::from(q)).sum(), f.map(f64::from));
                 }

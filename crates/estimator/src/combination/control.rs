@@ -1,4 +1,5 @@
-//! Estimators that know what x would receive were nothing in between, U, and sample only the shadow.
+//! Estimators that know what x would receive were nothing in between and all targets of one radiance each, U, and sample only
+//! what is missing.
 
 use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::Real;
@@ -7,18 +8,20 @@ use twoforms_geometry::view::{Vantage, View};
 
 use crate::density::{ByArea, Density, OnLights};
 use crate::estimator::{Primary, Worth, count};
-use crate::measure::Sample;
+use crate::measure::{Sample, SurfaceArea};
 use crate::numbers::Drawn;
 use crate::query::Query;
 use crate::rgb::Rgb;
 
-/// U Σ V g/p / Σ g/p with g the unhidden integrand: unhidden light times the part of it that is seen, by one set of samples
-/// (Heitz, Hill, McGuire 2018, "Combining analytic direct illumination and stochastic shadows"). Biased at few samples.
+/// U Σ V f/p / Σ g/p with f the unhidden integrand and g that of the targets' mean radiances, whose integral is U: light
+/// unhidden times the part of it that is seen, by one set of samples (Heitz, Hill, McGuire 2018, "Combining analytic direct
+/// illumination and stochastic shadows"). Biased at few samples. Where no light emits by a texture, g is f.
 pub(crate) struct Ratio<'a> {
     pub(crate) shadow: Shadow<'a>,
 }
 
-/// U − (1/N) Σ (1 − V) g/p: unhidden light less the part that is hidden. Unbiased, and certain where nothing is hidden.
+/// U − (1/N) Σ (g − V f)/p: unhidden light less the part that is hidden. Unbiased, and certain where nothing is hidden and no
+/// light emits by a texture.
 pub(crate) struct ControlVariate<'a> {
     pub(crate) shadow: Shadow<'a>,
 }
@@ -28,12 +31,13 @@ pub(crate) struct Shadow<'a> {
     pub(crate) view: &'a View<'a>,
     pub(crate) query: &'a Query<'a>,
     pub(crate) density: OnLights<'a, ByArea>,
-    /// U, RGB.
+    /// U, by the targets' mean radiances, RGB.
     pub(crate) unoccluded: [f64; 3],
 }
 
-/// One sample: g/p, V, and where V was asked for.
+/// One sample: g/p, f/p, V, and where V was asked for.
 struct Shade<R: Real> {
+    mean: Rgb<R>,
     unhidden: Rgb<R>,
     visible: R::Mask,
     asked: R::Mask,
@@ -41,22 +45,42 @@ struct Shade<R: Real> {
 
 impl Shadow<'_> {
     #[inline(always)]
-    fn unhidden<R: Real>(
+    fn draw<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Masked<Sample<SurfaceArea, R>, R> {
+        let (sample, some) = self.density.sample(from, drawn.xi(0)).parts();
+        Masked::new(sample, some & from.wanted() & Segment::to(&sample.at).facing())
+    }
+
+    /// What a point would contribute were nothing in between, with this L_e, over its density.
+    #[inline(always)]
+    fn worth<R: Real>(
         &self,
         from: &Vantage<R>,
-        drawn: Drawn,
-    ) -> (Rgb<R>, Sample<crate::measure::SurfaceArea, R>, R::Mask) {
-        let (sample, some) = self.density.sample(from, drawn.xi(0)).parts();
+        sample: &Sample<SurfaceArea, R>,
+        facing: R::Mask,
+        l_e: Rgb<R>,
+    ) -> Rgb<R> {
         let xy = Segment::to(&sample.at);
-        let facing = some & from.wanted() & xy.facing();
-        let g = self.query.l_e(Masked::new(sample.at, facing)) * self.query.f_r(from, xy.psi) * xy.g();
-        ((g * (R::one() / sample.pdf.value())).or_black(facing), sample, facing)
+        let g = l_e * self.query.f_r(from, xy.psi) * xy.g();
+        (g * (R::one() / sample.pdf.value())).or_black(facing)
+    }
+
+    /// g/p.
+    #[inline(always)]
+    fn mean<R: Real>(&self, from: &Vantage<R>, sample: &Sample<SurfaceArea, R>, facing: R::Mask) -> Rgb<R> {
+        self.worth(from, sample, facing, self.query.mean_l_e(Masked::new(sample.at, facing)))
     }
 
     #[inline(always)]
     fn sample<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Shade<R> {
-        let (unhidden, sample, facing) = self.unhidden(from, drawn);
-        Shade { unhidden, visible: facing & from.visible(&sample.at, facing), asked: facing }
+        let (sample, facing) = self.draw(from, drawn).parts();
+        let mean = self.mean(from, &sample, facing);
+        let visible = facing & from.visible(&sample.at, facing);
+        let unhidden = if self.query.lights().vary() {
+            self.worth(from, &sample, facing, self.query.l_e(from, Masked::new(sample.at, visible)))
+        } else {
+            mean
+        };
+        Shade { mean, unhidden, visible, asked: facing }
     }
 }
 
@@ -67,17 +91,18 @@ impl Primary for Ratio<'_> {
         self.shadow.view
     }
 
-    /// V g/p.
+    /// V f/p.
     #[inline(always)]
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R> {
-        let Shade { unhidden, visible, asked } = self.shadow.sample(from, drawn);
+        let Shade { unhidden, visible, asked, .. } = self.shadow.sample(from, drawn);
         Worth { value: unhidden.or_black(visible), rays: count::<R>(asked) }
     }
 
     /// g/p.
     #[inline(always)]
     fn divisor<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Rgb<R> {
-        self.shadow.unhidden(from, drawn).0
+        let (sample, facing) = self.shadow.draw(from, drawn).parts();
+        self.shadow.mean(from, &sample, facing)
     }
 
     /// Zero where no sample faces x.
@@ -94,9 +119,13 @@ impl Primary for ControlVariate<'_> {
 
     #[inline(always)]
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R> {
-        let Shade { unhidden, visible, asked } = self.shadow.sample(from, drawn);
+        let Shade { mean, unhidden, visible, asked } = self.shadow.sample(from, drawn);
         let known = Rgb::splat(self.shadow.unoccluded.map(|u| u as f32)).or_black(from.wanted());
-        let hidden = unhidden.or_black(asked & !visible);
+        let hidden = if self.shadow.query.lights().vary() {
+            mean + unhidden.or_black(visible) * R::splat(-1.0)
+        } else {
+            mean.or_black(asked & !visible)
+        };
         Worth { value: known + hidden * R::splat(-1.0), rays: count::<R>(asked) }
     }
 }

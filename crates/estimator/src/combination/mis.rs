@@ -3,6 +3,7 @@
 //! I = Σ_i Σ_k w_i(X_ik) f(X_ik) / (n_i p_i(X_ik)), densities per solid angle at the point y of a light that x sees. A technique
 //! that cannot come upon y has density zero there.
 
+use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::view::{Vantage, View};
 
@@ -70,7 +71,7 @@ impl Mis<'_> {
             return missed;
         }
         let q = self.expected(from, i, found);
-        let f = self.query.received(from, &found.y, &found.xy);
+        let f = self.query.received(from, Masked::new(found.y, found.seen), &found.xy);
         let value = match self.weighting {
             Weighting::Optimal | Weighting::Pilot(_) => self.residual(f, &q),
             weighting => f * weighting.over(&q[..self.team.len()], i),

@@ -1,5 +1,6 @@
 //! One sample from one of two techniques, by chance: p = A p_1 + (1 − A) p_2.
 
+use twoforms_geometry::masked::Masked;
 use twoforms_geometry::real::{Mask, Real, Word};
 use twoforms_geometry::view::{Vantage, View};
 
@@ -83,7 +84,7 @@ impl Primary for Mixture<'_> {
             if found.seen.any() {
                 let other = self.pair[1 - side].pdf_of(&here.only(found.seen), &found.y, &found.xy);
                 let p = found.pdf * R::splat(shares[side]) + other * R::splat(shares[1 - side]);
-                let f = self.query.received(&here, &found.y, &found.xy);
+                let f = self.query.received(&here, Masked::new(found.y, found.seen), &found.xy);
                 value = value + (f * (R::one() / p)).or_black(found.seen);
             }
         }

@@ -25,14 +25,14 @@ impl Density<SolidAngle> for ByBrdf {
     #[inline(always)]
     fn sample<R: Real>(&self, from: &Vantage<R>, xi: Xi<R>) -> Masked<Sample<SolidAngle, R>, R> {
         let Some(glossy) = &self.glossy else { return CosineHemisphere.sample(from, xi) };
-        let at = Aim::anywhere(glossy.direction(from.start(), xi.uv()));
+        let at = Aim::anywhere(glossy.direction(from.footprint(), xi.uv()));
         self.pdf(from, &at).map(|pdf| Sample { at, pdf })
     }
 
     #[inline(always)]
     fn pdf<R: Real>(&self, from: &Vantage<R>, aim: &Aim<R>) -> Masked<Pdf<SolidAngle, R>, R> {
         let Some(glossy) = &self.glossy else { return CosineHemisphere.pdf(from, aim) };
-        let pdf = glossy.pdf(from.start(), aim.psi);
+        let pdf = glossy.pdf(from.footprint(), aim.psi);
         Masked::new(Pdf::new(pdf), R::zero().lt(aim.psi.cos_theta()))
     }
 }

@@ -6,6 +6,7 @@ mod bilinear_cosine;
 mod brdf;
 mod hemisphere;
 mod lights;
+mod luminance;
 mod one_target;
 mod pieces;
 mod projected_solid_angle;
@@ -19,6 +20,7 @@ pub use bilinear_cosine::{BilinearCosineOnLights, ByBilinearCosine, corner_cosin
 pub use brdf::{BrdfOfSurface, ByBrdf};
 pub use hemisphere::{CosineHemisphere, UniformHemisphere};
 pub use lights::{AreaOnLights, ByArea, OnLights, Picking, Spread};
+pub use luminance::{ByLuminance, LuminanceOnLights};
 pub use one_target::OnOneTarget;
 pub use pieces::{Piece, Pieces, PiecesOfTargets, each_piece};
 pub use projected_solid_angle::{ByProjectedSolidAngle, ProjectedSolidAngleOnLights};

@@ -26,7 +26,7 @@ impl Formulation for Area {
     #[inline(always)]
     fn integrand<R: Real>(from: &Vantage<R>, query: &Query, y: &SurfacePoint<R>) -> Integrand<SurfaceArea, R> {
         let xy = Segment::to(y);
-        Integrand::new(query.l_e(Self::seen(from, y)) * query.f_r(from, xy.psi) * xy.g())
+        Integrand::new(query.l_e(from, Self::seen(from, y)) * query.f_r(from, xy.psi) * xy.g())
     }
 
     /// y itself, where V(x, y) = 1.

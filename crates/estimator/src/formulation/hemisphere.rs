@@ -26,7 +26,7 @@ impl Formulation for Hemisphere {
     #[inline(always)]
     fn integrand<R: Real>(from: &Vantage<R>, query: &Query, aim: &Aim<R>) -> Integrand<SolidAngle, R> {
         let cos_x = aim.psi.cos_theta();
-        Integrand::new(query.l_e(Self::seen(from, aim)) * query.f_r(from, aim.psi) * cos_x)
+        Integrand::new(query.l_e(from, Self::seen(from, aim)) * query.f_r(from, aim.psi) * cos_x)
     }
 
     /// y = vp(x, Ψ)

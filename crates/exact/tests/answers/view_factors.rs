@@ -68,6 +68,7 @@ pub fn polygon(radius: f64, h: f64, n: usize) -> Sight {
         faces: true,
         area,
         radiance: [1.0; 3],
+        glow: None,
         blockers: Vec::new(),
     };
     Sight::new(&[facing], &[Light { area, power: area }]).unwrap()

@@ -13,6 +13,7 @@ use crate::blocking;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::tracer::Region;
+use crate::veil::Cover;
 
 /// Most targets of a group.
 const MOST: usize = 128;
@@ -73,15 +74,20 @@ impl<'a> Group<'a> {
 
     /// Visits the group's targets, by one query of the hierarchy.
     pub(crate) fn prospects(&self, visit: &mut impl FnMut(Prospect) -> Need) {
-        let candidates = self.candidates();
+        let candidates = &self.candidates();
         for Member { target, facet, lit } in &self.members {
             let mut blockers = Vec::new();
-            let mut rest = lit.iter().flat_map(|lit| candidates.before(lit, *target, self.geometry));
+            let before =
+                |opaque| lit.iter().flat_map(move |lit| candidates.before(lit, *target, self.geometry, opaque));
+            let veils = || if self.geometry.is_veiled() { before(false).collect() } else { Vec::new() };
+            let mut rest = before(true);
             blockers.extend(rest.by_ref().take(LARGEST));
             let complete = blockers.len() < LARGEST;
-            if visit(Prospect::of(*target, facet, blockers.clone(), complete)) == Need::Complete && !complete {
+            let first = Prospect::of(*target, facet, blockers.clone(), complete);
+            let first = if complete { Prospect { veils: veils(), ..first } } else { first };
+            if visit(first) == Need::Complete && !complete {
                 blockers.extend(rest);
-                visit(Prospect::of(*target, facet, blockers, true));
+                visit(Prospect { veils: veils(), ..Prospect::of(*target, facet, blockers, true) });
             }
         }
     }
@@ -119,16 +125,18 @@ impl<'a> Group<'a> {
 }
 
 impl Candidates {
-    /// The triangles that stand before a lit target.
+    /// The triangles that stand before a lit target: those that are opaque, or the others.
     fn before(
         &self,
         (shaft, window): &(Shaft, Window),
         target: u32,
         geometry: &Geometry,
+        opaque: bool,
     ) -> impl Iterator<Item = [DVec3; 3]> {
         let near = self.windows.iter().zip(&self.triangles).filter(|(own, _)| own.meets(window));
         let stands = move |(triangle, corners): &(u32, [DVec3; 3])| {
-            (geometry.may_block(*triangle, target) && shaft.meets(corners)).then_some(*corners)
+            let asked = (geometry.cover(*triangle) == Cover::Opaque) == opaque;
+            (asked && geometry.may_block(*triangle, target) && shaft.meets(corners)).then_some(*corners)
         };
         near.filter_map(move |(_, candidate)| stands(candidate))
     }

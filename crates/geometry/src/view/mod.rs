@@ -119,8 +119,9 @@ impl<'g> View<'g> {
     }
 }
 
-/// What is seen of each target; none where there are too many.
+/// What is seen of each target; none where there are too many, or one of them is cut out.
 fn sights(geometry: &Geometry, look: impl Fn(u32) -> Option<Sight>) -> Option<Vec<Sight>> {
     let count = geometry.targets().len();
-    if count > MANY_TARGETS { None } else { (0..count as u32).map(look).collect() }
+    let cut = || geometry.is_veiled() && (0..count as u32).any(|target| geometry.is_cut(target));
+    if count > MANY_TARGETS || cut() { None } else { (0..count as u32).map(look).collect() }
 }

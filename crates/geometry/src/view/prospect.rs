@@ -12,6 +12,7 @@ use crate::geometry::Geometry;
 use crate::mesh::Triangle;
 use crate::target::Sides;
 use crate::tracer::Region;
+use crate::veil::Cover;
 
 /// A target in binary64 as x meets it, with every triangle that can stand between. In the frame of x, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +27,8 @@ pub struct Prospect {
     pub blockers: Vec<[DVec3; 3]>,
     /// Whether these are all of them, or only some of the largest.
     pub complete: bool,
+    /// The triangles that are not opaque and can stand between, where `blockers` are complete.
+    pub veils: Vec<[DVec3; 3]>,
 }
 
 /// What a visitor of prospects needs.
@@ -42,15 +45,16 @@ impl Prospect {
     /// over the target holds.
     pub fn new(geometry: &Geometry, frame: &Frame, target: u32) -> Self {
         let facet = Facet::wide(geometry, frame, target);
-        let mut blockers = Vec::new();
+        let (mut blockers, mut veils) = (Vec::new(), Vec::new());
         if facet.lit() {
             let shaft = Shaft::from_x(&facet);
-            let _ = shaft.visit(geometry, frame, target, usize::MAX, |corners| {
-                blockers.extend(shaft.meets(&corners).then_some(corners));
+            let _ = shaft.visit(geometry, frame, target, usize::MAX, |triangle, corners| {
+                let found = if geometry.cover(triangle) == Cover::Opaque { &mut blockers } else { &mut veils };
+                found.extend(shaft.meets(&corners).then_some(corners));
                 ControlFlow::Continue(())
             });
         }
-        Self::of(target, &facet, blockers, true)
+        Self { veils, ..Self::of(target, &facet, blockers, true) }
     }
 
     /// The prospect of a target that stands elsewhere than the scene has it, where `corners` say, in the frame of x, and
@@ -75,7 +79,8 @@ impl Prospect {
     }
 
     pub(crate) fn of(target: u32, facet: &Wide, blockers: Vec<[DVec3; 3]>, complete: bool) -> Self {
-        Self { target, standing: facet.standing(), corners: facet.corners().to_vec(), blockers, complete }
+        let (standing, corners) = (facet.standing(), facet.corners().to_vec());
+        Self { target, standing, corners, blockers, complete, veils: Vec::new() }
     }
 }
 

@@ -76,7 +76,7 @@ impl Shaft {
         frame: &Frame,
         target: u32,
         most: usize,
-        mut visit: impl FnMut([DVec3; 3]) -> ControlFlow<()>,
+        mut visit: impl FnMut(u32, [DVec3; 3]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let (mut candidates, mut flow) = (0, ControlFlow::Continue(()));
         geometry.within(&self.region(frame), |triangle| {
@@ -85,7 +85,7 @@ impl Shaft {
             if candidates > most {
                 flow = ControlFlow::Break(());
             } else if geometry.may_block(triangle, target) && !self.held_by(&blocker, frame) {
-                flow = visit(blocker.vertices().map(|v| frame.localize(v)));
+                flow = visit(triangle, blocker.vertices().map(|v| frame.localize(v)));
             }
             flow
         });

@@ -10,6 +10,7 @@ use super::facet::{Facet, ROW, Wide};
 use super::shaft::Shaft;
 use crate::frame::Frame;
 use crate::geometry::Geometry;
+use crate::veil::Cover;
 
 /// Most triangles between x and a target that are held against planes; beyond, rays are cast.
 const MANY_BLOCKERS: usize = 64;
@@ -96,12 +97,17 @@ impl Sight {
     }
 }
 
-/// Everything that can stand in the shaft to a target, as cones.
+/// Everything that can end a line in the shaft to a target, as cones; what is blended ends none. Where some of it is cut out,
+/// rays must tell.
 fn gather(geometry: &Geometry, frame: &Frame, target: u32, shaft: &Shaft) -> Between {
     let mut cones = Vec::new();
-    let flow = shaft.visit(geometry, frame, target, MANY_CANDIDATES, |corners| {
-        cones.extend(shaft.cone(&corners));
-        if cones.len() > MANY_BLOCKERS { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    let flow = shaft.visit(geometry, frame, target, MANY_CANDIDATES, |triangle, corners| {
+        let cover = geometry.cover(triangle);
+        if cover != Cover::Blended {
+            cones.extend(shaft.cone(&corners).filter(|_| cover == Cover::Opaque));
+        }
+        let cut = cover == Cover::Cut && shaft.meets(&corners);
+        if cut || cones.len() > MANY_BLOCKERS { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     if flow.is_break() { Between::Unknown } else { Between::Gathered(cones) }
 }

@@ -36,7 +36,7 @@ impl<'v, R: Real> Vantage<'v, R> {
 
     /// The points of the footprint, in metres in the frame of x; none where all samples look from x itself.
     #[inline(always)]
-    pub fn start(&self) -> Option<Vector<R>> {
+    pub fn footprint(&self) -> Option<Vector<R>> {
         self.start
     }
 
@@ -44,6 +44,21 @@ impl<'v, R: Real> Vantage<'v, R> {
     #[inline(always)]
     pub fn view(&self) -> &'v View<'v> {
         self.view
+    }
+
+    /// Where samples look from, in the frame of x.
+    #[inline(always)]
+    pub fn start(&self) -> Vector<R> {
+        self.start.unwrap_or_else(
+            #[inline(always)]
+            || Vector::splat([0.0; 3]),
+        )
+    }
+
+    /// A position said from where its sample looks from, said from x.
+    #[inline(always)]
+    pub fn from_x(&self, position: Vector<R>) -> Vector<R> {
+        self.start() + position
     }
 
     /// The targets as samples meet them, by each sample's index.
@@ -270,6 +285,18 @@ impl<'v, R: Real> Vantage<'v, R> {
 }
 
 impl View<'_> {
+    /// The share of light that passes what is blended between a point of a target and where its sample looks from, and arrives
+    /// if the target is there at all: `start` and `toward` in the frame of x, `toward` from the one to the other.
+    pub fn passing(&self, start: [f32; 3], toward: [f32; 3], target: u32) -> f64 {
+        let [start, toward] = [start, toward].map(|v| DVec3::from_array(v.map(f64::from)));
+        let ray = self.ray(start, toward);
+        if self.geometry.is_hole(target, ray.at(1.0)) {
+            return 0.0;
+        }
+        let before = self.wide(target).distance_along(start, toward);
+        self.geometry.transmittance(&ray, before, target)
+    }
+
     /// Casts a ray along a local line toward the plane of a target.
     fn clear(&self, line: &Line<f32>, target: u32) -> bool {
         let (start, toward) = wide(line);

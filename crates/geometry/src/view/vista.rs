@@ -13,6 +13,7 @@ use crate::masked::Masked;
 use crate::real::{Mask, Real, Word};
 use crate::tracer::Region;
 use crate::vector::{Vector, round};
+use crate::veil::Cover;
 
 /// Most triangles that are held against every line; beyond, rays are cast.
 const MANY_PANES: usize = 24;
@@ -50,8 +51,8 @@ pub struct Glimpse<R: Real> {
 impl Vista {
     /// What the eye at the origin of `eye` sees between four directions in order around the window, in its frame.
     ///
-    /// None where that is too much, or where a light lies in the plane of another surface there, which takes a ray to tell
-    /// apart.
+    /// None where that is too much, where a light lies in the plane of another surface there, which takes a ray to tell apart,
+    /// or where a surface there is not opaque.
     pub fn new(geometry: &Geometry, eye: &Frame, corners: &[DVec3; 4]) -> Option<Self> {
         let inward: Vec<DVec3> = edge_planes(corners).collect();
         let ahead: DVec3 = corners.iter().map(|c| c.normalize_or_zero()).sum();
@@ -68,7 +69,8 @@ impl Vista {
         panes.dedup_by_key(|pane| pane.triangle);
         let among = |t: u32| panes.iter().any(|pane| pane.triangle == t);
         let ambiguous = panes.iter().any(|pane| geometry.emitters_flush_with(pane.triangle).any(among));
-        (!too_many && !ambiguous).then_some(Self { panes })
+        let veiled = panes.iter().any(|pane| geometry.cover(pane.triangle) != Cover::Opaque);
+        (!too_many && !ambiguous && !veiled).then_some(Self { panes })
     }
 
     /// The triangles, by index in the mesh.

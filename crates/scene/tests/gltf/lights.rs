@@ -196,8 +196,7 @@ fn what_is_not_read_is_said_once() {
             r#"vertex colours are ignored: "a""#,
             r#"morph targets are ignored: "a""#,
             r#"a skinned mesh stands in its bind pose: "b""#,
-            r#"textures are ignored, factors alone count: 2 ("a", "b")"#,
-            r#"alpha is ignored, surfaces are opaque: 2 ("a", "b")"#,
+            r#"normal textures are ignored, surfaces are flat: 2 ("a", "b")"#,
         ]
     );
 }

@@ -184,7 +184,7 @@ fn constant_lights_stay_so() {
     file.json["materials"][0].as_object_mut().expect("an object").remove("emissiveTexture");
     let scene = file.scene();
     assert_eq!(scene.target_emission(0), Emission::Constant([1.0; 3]));
-    assert!(scene.is_uniform(0) && scene.require_constant_emission().is_ok() && scene.textures.is_empty());
+    assert!(scene.is_uniform(0) && !scene.lights[0].is_textured() && scene.textures.is_empty());
 }
 
 #[test]
@@ -247,12 +247,27 @@ fn a_mirrored_light_shows_the_same_texture() {
     }
 }
 
+/// Patterns in binary64, by the grid and over parts of a target, say what emission says point by point.
 #[test]
-fn a_textured_light_is_refused_where_radiance_is_taken_for_constant() {
-    let refusal = lamp([1.0; 3]).scene().require_constant_emission().expect_err("it is textured").to_string();
-    assert_eq!(
-        refusal,
-        "test.gltf: material \"neon\" of \"thing\" emits by an emissiveTexture, which is not sampled; give it a constant \
-         emissiveFactor without the texture"
-    );
+fn a_pattern_is_bilinear_between_the_lines_of_its_grid() {
+    let scene = lamp([1.0, 2.0, 4.0]).scene();
+    let emission = scene.target_emission(0);
+    let Emission::Textured(pattern) = &emission else { panic!("it is textured") };
+    let [a, b, d] = pattern.corners_in_grid();
+    let corners = scene.targets[0].corners(&scene.mesh);
+    let [corner, next, .., last] = corners.as_slice() else { panic!("a parallelogram") };
+    let [corner, next, last] = [corner, next, last].map(|v| v.as_dvec3());
+    for [s, t] in [[0.1, 0.2], [0.7, 0.3], [0.4, 0.9], [0.8, 0.85]] {
+        let y = corner + s * (next - corner) + t * (last - corner);
+        let [found_s, found_t] = pattern.coordinates(y);
+        assert!((found_s - s).abs() + (found_t - t).abs() < 1e-6, "{found_s}, {found_t}");
+        let by_grid = pattern.at_grid(a + s * (b - a) + t * (d - a));
+        let by_point = emission.at_point(y);
+        assert!((0..3).all(|c| (by_grid[c] - f64::from(by_point[c])).abs() < 1e-6), "{by_grid:?} {by_point:?}");
+    }
+    let halves =
+        [[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]].map(|h| pattern.mean_over(h));
+    for c in 0..3 {
+        assert!((0.5 * (halves[0][c] + halves[1][c]) - emission.mean()[c]).abs() < 1e-12);
+    }
 }

@@ -144,7 +144,7 @@ fn points_by_luminance_follow_their_density() {
         let view = View::new(&world.geometry, place.frame(), Effort::Gather);
         let density = ready.at(&view, &query);
         let draws = Samples::new(SEED, &place, strategy, Sampler::Independent, N);
-        let counts = chi_square(&view, &density, &LightCells::new(&view, &density.picker), &draws);
+        let counts = chi_square(&view, &density, &LightCells::new(&view, &density.picking), &draws);
         found.push(Outcome::Tested { p: counts.p(), evidence: format!("{}: {counts}", place.name) });
     }
     Family::new("points by luminance against their density", LEVEL, SEED, found).assert_holds(0.0);
@@ -161,7 +161,7 @@ fn targets_are_drawn_by_what_they_emit() {
     let density = ready.at(&view, &query);
     let total: f64 = (0..world.lights.targets() as u32).map(|k| world.lights.emitted(k)).sum();
     for target in 0..world.lights.targets() as u32 {
-        let per_luminance = f64::from(density.picker.density::<f32>(target)) * total;
+        let per_luminance = f64::from(density.picking.density::<f32>(target)) * total;
         assert!((per_luminance - 1.0).abs() < 1e-5, "target {target}: {per_luminance}");
     }
 }

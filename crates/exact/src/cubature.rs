@@ -41,7 +41,31 @@ pub fn integrate<const K: usize>(
     f: impl Fn(DVec3) -> [f64; K],
     tolerance: impl Fn(&[f64; K]) -> [f64; K],
 ) -> Result<Integral<K>, Error> {
-    let mut cells: Vec<Cell<K>> = patches(pieces).map(|patch| Cell::new(patch, &f)).collect();
+    integrate_over(patches(pieces), f, tolerance)
+}
+
+/// The same of a function that may jump across curves: each piece begins as 64 cells, lest the rules miss what lies beyond one.
+///
+/// # Errors
+/// As [`integrate`].
+pub fn integrate_jumping<const K: usize>(
+    pieces: &Pieces,
+    f: impl Fn(DVec3) -> [f64; K],
+    tolerance: impl Fn(&[f64; K]) -> [f64; K],
+) -> Result<Integral<K>, Error> {
+    let mut cut: Vec<Patch> = patches(pieces).collect();
+    for across_xi in [true, false, true, false, true, false] {
+        cut = cut.into_iter().flat_map(|patch| patch.halves(across_xi)).collect();
+    }
+    integrate_over(cut.into_iter(), f, tolerance)
+}
+
+fn integrate_over<const K: usize>(
+    patches: impl Iterator<Item = Patch>,
+    f: impl Fn(DVec3) -> [f64; K],
+    tolerance: impl Fn(&[f64; K]) -> [f64; K],
+) -> Result<Integral<K>, Error> {
+    let mut cells: Vec<Cell<K>> = patches.map(|patch| Cell::new(patch, &f)).collect();
     let mut evaluated = cells.len();
     let limit = CELLS + 3 * evaluated;
     loop {

@@ -43,9 +43,11 @@ fn main() {
 fn error(triangle: &SphericalTriangle, [u, v]: [f32; 2]) -> [f64; 2] {
     let [a, b, c] = triangle.corners().map(DVec3::normalize);
     let psi = triangle.turned(triangle.direction([u, v]).map(f64::from)).normalize();
-    let normal = a.cross(c - a);
+    let normal = a.cross(c - a).normalize();
     let edge = {
+        // In a sliver both planes are nearly one, and what their cross product loses shows across them.
         let toward = b.cross(psi - b).cross(normal).normalize();
+        let toward = (toward - normal * normal.dot(toward)).normalize();
         toward * 1.0_f64.copysign(toward.dot(a + c))
     };
     let share = solid_angle(a, b, edge) / solid_angle(a, b, c);

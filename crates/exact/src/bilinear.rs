@@ -51,10 +51,13 @@ fn numbers(piece: &Piece, y: DVec3) -> [f64; 2] {
         }
         Piece::Triangle(triangle) => {
             let [a, b, c] = triangle.corners();
-            let toward = b.cross(y - b).cross(a.cross(c - a));
+            let normal = a.cross(c - a).normalize();
+            let toward = b.cross(y - b).cross(normal);
+            // In a sliver both planes are nearly one, and what their cross product loses shows across them.
+            let toward = toward - normal * normal.dot(toward);
             let edge = toward * 1.0_f64.copysign(toward.dot(a.normalize() + c.normalize()));
             let [psi, from, to] = [y, b, edge].map(DVec3::normalize);
-            let side = a.cross(edge).dot(a.cross(c));
+            let side = a.cross(edge).dot(normal);
             let before = solid_angle(&[a, b, edge]).copysign(side);
             let along = (psi - from).length_squared() / (to - from).length_squared();
             [before / piece.solid_angle(), along.copysign((psi - from).dot(to - from))]

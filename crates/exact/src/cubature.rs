@@ -58,20 +58,38 @@ pub fn integrate<const K: usize>(
     f: impl Fn(DVec3) -> [f64; K],
     tolerance: impl Fn(&[f64; K]) -> [f64; K],
 ) -> Result<Integral<K>, Error> {
-    integrate_near(pieces, None, f, tolerance)
+    integrate_as(pieces, Manner::Smooth, f, tolerance)
 }
 
-/// The same for a function that may have a peak: cells are halved until none is wide beside it.
+/// How a function behaves over a piece.
+#[derive(Clone, Copy, Debug)]
+pub enum Manner<'p> {
+    /// It is smooth.
+    Smooth,
+    /// It may have a peak: cells are halved until none is wide beside it.
+    Peaked(&'p Peak),
+    /// It may jump across curves: each piece begins as 64 cells, lest the rules miss what lies beyond one.
+    Jumping,
+}
+
+/// The same for a function that may not be smooth.
 ///
 /// # Errors
 /// As [`integrate`].
-pub fn integrate_near<const K: usize>(
+pub fn integrate_as<const K: usize>(
     pieces: &Pieces,
-    peak: Option<&Peak>,
+    manner: Manner,
     f: impl Fn(DVec3) -> [f64; K],
     tolerance: impl Fn(&[f64; K]) -> [f64; K],
 ) -> Result<Integral<K>, Error> {
-    let mut cells: Vec<Cell<K>> = patches(pieces).map(|patch| Cell::new(patch, peak, &f)).collect();
+    let mut cut: Vec<Patch> = patches(pieces).collect();
+    if let Manner::Jumping = manner {
+        for across_xi in [true, false, true, false, true, false] {
+            cut = cut.into_iter().flat_map(|patch| patch.halves(across_xi)).collect();
+        }
+    }
+    let peak = if let Manner::Peaked(peak) = manner { Some(peak) } else { None };
+    let mut cells: Vec<Cell<K>> = cut.into_iter().map(|patch| Cell::new(patch, peak, &f)).collect();
     let mut evaluated = cells.len();
     let limit = CELLS + 3 * evaluated;
     loop {

@@ -10,7 +10,7 @@ use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::strategy::{Strategy, Team, Weighting};
 use twoforms_estimator::technique::Technique;
 
-use crate::cubature::{Peak, integrate_near};
+use crate::cubature::{Manner, Peak, integrate_as};
 use crate::density::Density;
 use crate::error::Error;
 use crate::law::{Colours, Law, Outcome};
@@ -111,7 +111,7 @@ impl Reflected {
     pub(crate) fn missed_by_itself(&self, sight: &Sight) -> Result<(f64, f64), Error> {
         let (mut found, mut error) = (0.0, 4.0 * EPSILON);
         for (index, seen) in visible(sight) {
-            let part = by_cubature_near(index, seen, Some(&self.peak()), |y| [1.0, self.own_density(seen, y)])?;
+            let part = by_cubature_near(index, seen, &self.peak(), |y| [1.0, self.own_density(seen, y)])?;
             found += part.mass;
             error += part.mass_error;
         }
@@ -156,7 +156,7 @@ impl Reflected {
         for (index, seen) in visible(sight) {
             for (channel, law) in laws.iter_mut().enumerate() {
                 let f = |y: DVec3| [self.integrand(seen, y)[channel] * per_density(index, seen, y), p(index, seen, y)];
-                law.parts.push(by_cubature_near(index, seen, Some(&self.peak()), f)?);
+                law.parts.push(by_cubature_near(index, seen, &self.peak(), f)?);
             }
         }
         Ok(laws)
@@ -177,7 +177,7 @@ impl Reflected {
             let (pieces, f) = (part(seen)?, |y: DVec3| self.integrand(seen, y));
             let slack = seen.slack_of(&seen.open) * self.peak().steepness();
             let relative = FINE.max(0.1 * slack);
-            let found = integrate_near(&pieces, Some(&self.peak()), f, |total| total.map(|v| relative * v))?;
+            let found = integrate_as(&pieces, Manner::Peaked(&self.peak()), f, |total| total.map(|v| relative * v))?;
             (0..CHANNELS).for_each(|c| sum[c] += found.value[c]);
             let outline = seen.open.shift * line_integral(&pieces, f)[3];
             error_bound += found.error[3] + outline + 2.0 * slack * found.value[3];

@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use glam::DVec3;
 
-use crate::cubature::{Peak, guess, integrate, integrate_near};
+use crate::cubature::{Manner, Peak, guess, integrate_as};
 use crate::error::Error;
 use crate::glow::Glow;
 use crate::law::Part;
@@ -20,7 +20,7 @@ use crate::visible::Pieces;
 /// # Errors
 /// [`Error::NotConverged`]; [`Error::TooManyTexels`].
 pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
-    within(index, seen, FINE, f)
+    within(index, seen, Manner::Smooth, f)
 }
 
 /// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
@@ -29,20 +29,21 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
 /// # Errors
 /// [`Error::NotConverged`]; [`Error::TooManyTexels`].
 pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
-    within(index, seen, ROUGH, f)
+    let may_miss = |part: Part| Part {
+        mass_error: part.mass_error + MISSED * part.mass,
+        mean_error: part.mean_error + MISSED * part.mean.abs(),
+        spread_error: part.spread_error + MISSED * part.spread,
+        ..part
+    };
+    Ok(within(index, seen, Manner::Jumping, f)?.into_iter().map(may_miss).collect())
 }
 
 /// The same of one function, radiance in it, that may have a peak.
 ///
 /// # Errors
 /// [`Error::NotConverged`].
-pub fn by_cubature_near(
-    index: usize,
-    seen: &Seen,
-    peak: Option<&Peak>,
-    f: impl Fn(DVec3) -> [f64; 2],
-) -> Result<Part, Error> {
-    of_function(index, seen, peak, FINE, f)
+pub fn by_cubature_near(index: usize, seen: &Seen, peak: &Peak, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
+    of_function(index, seen, Manner::Peaked(peak), f)
 }
 
 /// u = L g Φ/Y under Y dA/Φ, with Y the luminance times sides that the cell of y emits and Φ that of all lights.
@@ -56,31 +57,32 @@ pub fn by_cells(index: usize, seen: &Seen, glow: &Glow, total: f64) -> Result<Ve
         let per_share = if share > 0.0 { seen.g(y) / share } else { 0.0 };
         (glow.at(y).map(|radiance| radiance * per_share), share)
     };
-    of_channels(index, seen, &pieces, FINE, drawn)
+    of_channels(index, seen, &pieces, Manner::Smooth, drawn)
 }
 
 /// Relative errors of the mass, and of mean and spread.
 const FINE: [f64; 2] = [1e-11, 1e-9];
 const ROUGH: [f64; 2] = [1e-3, 1e-3];
+/// What may lie beyond a curve between a cell's edge and its outermost nodes, where no rule sees it: a share of the whole.
+const MISSED: f64 = 1e-4;
 
-fn within(index: usize, seen: &Seen, fine: [f64; 2], f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+/// To which they are computed.
+fn fineness(manner: Manner) -> [f64; 2] {
+    if let Manner::Jumping = manner { ROUGH } else { FINE }
+}
+
+fn within(index: usize, seen: &Seen, manner: Manner, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
     let Some(glow) = &seen.glow else {
-        return Ok(vec![of_function(index, seen, None, fine, f)?]);
+        return Ok(vec![of_function(index, seen, manner, f)?]);
     };
     let in_channels = |y: DVec3| {
         let [u, w] = f(y);
         (glow.at(y).map(|radiance| radiance * u), w)
     };
-    of_channels(index, seen, &seen.pieces, fine, in_channels)
+    of_channels(index, seen, &seen.pieces, manner, in_channels)
 }
 
-fn of_function(
-    index: usize,
-    seen: &Seen,
-    peak: Option<&Peak>,
-    fine: [f64; 2],
-    f: impl Fn(DVec3) -> [f64; 2],
-) -> Result<Part, Error> {
+fn of_function(index: usize, seen: &Seen, manner: Manner, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
     let [mass, first] = guess(&seen.pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
@@ -91,8 +93,9 @@ fn of_function(
         let d = u - centre;
         [w, d * w, d * d * w]
     };
-    let slack = seen.slack() * peak.map_or(1.0, Peak::steepness);
-    let sum = integrate_near(&seen.pieces, peak, about_centre, |&[mass, _, second]| {
+    let steepness = if let Manner::Peaked(peak) = manner { peak.steepness() } else { 1.0 };
+    let (slack, fine) = (seen.slack() * steepness, fineness(manner));
+    let sum = integrate_as(&seen.pieces, manner, about_centre, |&[mass, _, second]| {
         let [first, second] = allowed(centre, mass, second, relative(fine[1], slack));
         [relative(fine[0], slack) * mass, first, second]
     })?;
@@ -109,7 +112,7 @@ fn of_channels(
     index: usize,
     seen: &Seen,
     pieces: &Pieces,
-    fine: [f64; 2],
+    manner: Manner,
     f: impl Fn(DVec3) -> ([f64; 4], f64),
 ) -> Result<Vec<Part>, Error> {
     if pieces.len() > MOST {
@@ -125,8 +128,8 @@ fn of_channels(
         let d: [f64; 4] = from_fn(|c| u[c] - centres[c]);
         [w, d[0] * w, d[1] * w, d[2] * w, d[3] * w, d[0] * d[0] * w, d[1] * d[1] * w, d[2] * d[2] * w, d[3] * d[3] * w]
     };
-    let slack = seen.slack();
-    let sum = integrate(pieces, about_centres, |total| {
+    let (slack, fine) = (seen.slack(), fineness(manner));
+    let sum = integrate_as(pieces, manner, about_centres, |total| {
         let of_channel: [[f64; 2]; 4] =
             from_fn(|c| allowed(centres[c], total[0], total[5 + c], relative(fine[1], slack)));
         from_fn(|k| match k {

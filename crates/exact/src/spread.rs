@@ -42,8 +42,9 @@ pub fn by_cubature_near(
         [w, d * w, d * d * w]
     };
     let slack = seen.slack() * peak.map_or(1.0, Peak::steepness);
-    // Nothing is gained beyond a tenth of what the coordinates' rounding leaves.
-    let relative = |least: f64| least.max(0.1 * slack);
+    // Nothing is gained beyond a tenth of what the coordinates' rounding leaves; beside a peak f itself is rounded as much.
+    let gain = if peak.is_some() { 1.0 } else { 0.1 };
+    let relative = |least: f64| least.max(gain * slack);
     let tolerance = |&[mass, _, second]: &[f64; 3]| {
         let size = centre.abs() * mass;
         [

@@ -49,24 +49,25 @@ pub fn f_r(makeup: &Makeup, theta: DVec3, psi: DVec3) -> [f64; 3] {
     })
 }
 
-/// A grid of n × n normals, each standing for as much of D cosθ as any other (Walter et al. 2007, equation 35).
-pub fn normals(alpha: f64, n: u32) -> impl Iterator<Item = DVec3> {
+/// A grid of n × n normals, each with its share of D cosθ: tanθ = α √(u/(1 − u)) (Walter et al. 2007, equation 35), denser where
+/// u is near one, as normals that are seen at grazing angles need it: u = 1 − (1 − w)².
+fn normals(alpha: f64, n: u32) -> impl Iterator<Item = (DVec3, f64)> {
     let middle = move |k: u32| (f64::from(k) + 0.5) / f64::from(n);
     (0..n * n).map(move |k| {
-        let (u, turns) = (middle(k / n), middle(k % n));
-        let tan = alpha * (u / (1.0 - u)).sqrt();
+        let (w, turns) = (middle(k / n), middle(k % n));
+        let tan = alpha * (w * (2.0 - w)).sqrt() / (1.0 - w);
         let (sin_phi, cos_phi) = libm::sincos(TAU * turns);
-        DVec3::new(tan * cos_phi, tan * sin_phi, 1.0).normalize()
+        (DVec3::new(tan * cos_phi, tan * sin_phi, 1.0).normalize(), 2.0 * (1.0 - w) / f64::from(n * n))
     })
 }
 
 /// ∫ g(m, Ψ) D_Θ dm over all normals that Θ sees, Ψ being Θ mirrored at m, by such a grid.
 pub fn over_visible(alpha: f64, theta: DVec3, n: u32, g: impl Fn(DVec3, DVec3) -> f64) -> f64 {
-    let each = |m: DVec3| {
-        let share = visible(alpha, theta, m) / (distribution(alpha, m) * m.z);
+    let each = |(m, share): (DVec3, f64)| {
+        let share = share * visible(alpha, theta, m) / (distribution(alpha, m) * m.z);
         if share > 0.0 { share * g(m, m * (2.0 * theta.dot(m)) - theta) } else { 0.0 }
     };
-    normals(alpha, n).map(each).sum::<f64>() / f64::from(n * n)
+    normals(alpha, n).map(each).sum()
 }
 
 /// How much a white metal reflects of light from everywhere toward Θ: ∫ G/G_1 D_Θ dm, with F = 1 and Ψ above the horizon.

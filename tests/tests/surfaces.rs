@@ -104,7 +104,7 @@ fn a_white_furnace_gives_back_no_more_than_it_has() {
             let whole = ggx::over_visible(alpha, theta, 600, |_, _| 1.0);
             assert!((whole - 1.0).abs() < 2e-3, "α = {alpha}, cosθ = {cos}: {whole}");
             let reflected = ggx::white_metal_reflects(alpha, theta, 600);
-            let least = if alpha < 0.001 { 0.997 } else { 0.4 };
+            let least = if alpha < 0.001 { 0.997 } else { 0.3 };
             assert!((least..1.0 + 2e-3).contains(&reflected), "α = {alpha}, cosθ = {cos}: {reflected}");
         }
     }

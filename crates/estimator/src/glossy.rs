@@ -190,7 +190,8 @@ impl Glossy {
         toward * (R::one() / toward.length())
     }
 
-    /// f_r(x, Ψ↔Θ).
+    /// f_r(x, Ψ↔Θ). Cold, so that the loop over samples keeps its state in registers where there is no highlight.
+    #[cold]
     #[inline(never)]
     pub(crate) fn f_r<R: Real>(&self, start: Option<Vector<R>>, psi: Direction<R>) -> Rgb<R> {
         R::apart(

@@ -40,10 +40,10 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// By how much more than 1 the relative error of f can be than that of the directions it is taken at: near a double pole
-    /// at a distance w, f changes by at most 2/w of itself per radian.
+    /// By how much the relative error of f can be larger than that of the directions it is taken at: near a double pole at a
+    /// distance w, f changes by at most 2/w of itself per radian; and a half vector is rounded several times.
     pub fn steepness(&self) -> f64 {
-        1.0 + 2.0 / self.width
+        1.0 + 8.0 / self.width
     }
 }
 

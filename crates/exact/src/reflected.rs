@@ -176,7 +176,7 @@ impl Reflected {
         for seen in sight.seen.iter().filter(|seen| seen.luminance > 0.0) {
             let (pieces, f) = (part(seen)?, |y: DVec3| self.integrand(seen, y));
             let slack = seen.slack_of(&seen.open) * self.peak().steepness();
-            let relative = FINE.max(0.1 * slack);
+            let relative = FINE.max(slack);
             let found = integrate_as(&pieces, Manner::Peaked(&self.peak()), f, |total| total.map(|v| relative * v))?;
             (0..CHANNELS).for_each(|c| sum[c] += found.value[c]);
             let outline = seen.open.shift * line_integral(&pieces, f)[3];

@@ -93,11 +93,12 @@ fn of_function(index: usize, seen: &Seen, manner: Manner, f: impl Fn(DVec3) -> [
         let d = u - centre;
         [w, d * w, d * d * w]
     };
-    let steepness = if let Manner::Peaked(peak) = manner { peak.steepness() } else { 1.0 };
+    // Beside a peak f itself is rounded by as much as the coordinates' rounding leaves.
+    let (steepness, gain) = if let Manner::Peaked(peak) = manner { (peak.steepness(), 10.0) } else { (1.0, 1.0) };
     let (slack, fine) = (seen.slack() * steepness, fineness(manner));
     let sum = integrate_as(&seen.pieces, manner, about_centre, |&[mass, _, second]| {
-        let [first, second] = allowed(centre, mass, second, relative(fine[1], slack));
-        [relative(fine[0], slack) * mass, first, second]
+        let [first, second] = allowed(centre, mass, second, relative(fine[1], gain * slack));
+        [relative(fine[0], gain * slack) * mass, first, second]
     })?;
     let edges = line_integral(&seen.pieces, about_centre);
     let outline: [f64; 3] = from_fn(|k| sum.error[k] + edges[k] * seen.moments.shift);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::support::{File, SQUARE};
-use serde_json::json;
+use serde_json::{Value, json};
 use twoforms_geometry::target::{Shape, Sides};
 use twoforms_scene::Scene;
 
@@ -161,6 +161,44 @@ fn albedo_is_base_colour_without_the_metallic_share() {
     assert_eq!([0, 2, 4].map(|t| scene.albedo(t)), [[0.25, 0.125, 0.5], [0.0; 3], [0.0; 3]]);
     assert!(scene.lights.is_empty(), "an unlit material is no light");
     assert_eq!(scene.warnings, [r#"an unlit material is black and emits nothing: "sky""#]);
+}
+
+/// A dielectric has a highlight unless it is as rough as can be and says no more, or says that it has none.
+#[test]
+fn highlights_are_what_the_file_says_or_what_it_means() {
+    let dielectric = |roughness: f32| json!({"metallicFactor": 0, "roughnessFactor": roughness});
+    let specular = |value: Value| json!({"KHR_materials_specular": value});
+    let cases = [
+        (dielectric(1.0), json!({}), false, [0.04; 3]),
+        (json!({"metallicFactor": 0}), json!({}), false, [0.04; 3]),
+        (dielectric(0.5), json!({}), true, [0.04; 3]),
+        (json!({}), json!({}), true, [0.04; 3]),
+        (dielectric(1.0), specular(json!({})), true, [0.04; 3]),
+        (dielectric(0.5), specular(json!({"specularFactor": 0})), false, [0.04; 3]),
+        (dielectric(0.5), specular(json!({"specularColorFactor": [2, 0.5, 50]})), true, [0.08, 0.02, 1.0]),
+    ];
+    for (pbr, extensions, glossy, f_0) in cases {
+        let mut file = File::new();
+        let material = json!({"pbrMetallicRoughness": pbr, "extensions": extensions});
+        let material = file.push("materials", material.clone());
+        let mesh = file.square(Some(material));
+        file.node(json!({"mesh": mesh}));
+        let scene = file.scene();
+        let found = scene.appearance_at(0, [0.25, 0.25]);
+        assert_eq!((found.is_glossy(), found.f_0), (glossy, f_0), "{pbr} {extensions}");
+        assert_eq!(scene.warnings, [String::new(); 0]);
+    }
+}
+
+/// A mirror's f_r is no function, so it is taken a little rough, which is said.
+#[test]
+fn a_mirror_is_warned_of() {
+    let mut file = File::new();
+    let mirror = json!({"name": "mirror", "pbrMetallicRoughness": {"roughnessFactor": 0}});
+    let mirror = file.push("materials", mirror);
+    let mesh = file.square(Some(mirror));
+    file.node(json!({"mesh": mesh}));
+    assert_eq!(file.scene().warnings, [r#"a mirror has no f_r and is taken as rough as 1/32: "mirror""#]);
 }
 
 #[test]

@@ -150,9 +150,9 @@ impl<'a> Painter<'a> {
         let emission = if radiance && !varies { self.world.emission(seen) } else { [0.0; 3] };
         let material = self.world.scene.material_of(seen.triangle);
         let culled = cull && !seen.front && !material.double_sided;
-        let black = culled || (radiance && material.albedo == [0.0; 3]);
-        let lights = &self.world.lights;
         let albedo = if varies { [1.0; 3] } else { material.albedo };
+        let black = culled || (radiance && albedo == [0.0; 3]);
+        let lights = &self.world.lights;
         let query = if radiance { Query::radiance(lights, albedo) } else { Query::irradiance(lights) };
         Surface { emission: emission.map(f64::from), query: (!black).then_some(query), varies }
     }

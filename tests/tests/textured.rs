@@ -4,6 +4,7 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use glam::Vec3;
 use serde_json::{Value, json};
 use twoforms_comparison::exactly::{self, with_formula};
+use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::world::World;
 use twoforms_estimator::density::{LuminanceOnLights, Ready};
@@ -23,6 +24,7 @@ const SEED: u64 = 20_261_123;
 const LEVEL: f64 = 1e-3;
 const N: u32 = 100_000;
 const GREY: Material = Material::diffuse([0.5; 3]);
+const FLOOR: usize = 0;
 const SQUARE: usize = 2;
 const TRIANGLE: usize = 3;
 const LINEAR: u32 = 9729;
@@ -164,4 +166,60 @@ fn targets_are_drawn_by_what_they_emit() {
         let per_luminance = f64::from(density.picking.density::<f32>(target)) * total;
         assert!((per_luminance - 1.0).abs() < 1e-5, "target {target}: {per_luminance}");
     }
+}
+
+/// An image from the middle of each pixel.
+fn image(world: &World) -> Vec<Pixel> {
+    let rendering = Rendering {
+        strategy: Strategy::from(Kind::AreaUniform),
+        sampler: Sampler::Independent,
+        width: 32,
+        height: 32,
+        crop: Crop { x0: 0, x1: 32, y0: 0, y1: 32 },
+        spp: 4,
+        light_samples: 4,
+        filter: PixelFilter::Point,
+        cull: false,
+        radiance: true,
+        seed: SEED,
+    };
+    rendering.run(world, &world.scene.cameras[0], &|_| ()).expect("finite samples")
+}
+
+/// Radiance from a floor of many colours is that from a white one times the colour there, also where the floor is a metal but
+/// for a texture that says otherwise.
+#[test]
+fn images_show_the_colour_at_the_point() {
+    let floor = |document: &mut Value| {
+        document["materials"][FLOOR]["pbrMetallicRoughness"]["baseColorFactor"] = json!([1.0, 1.0, 1.0, 1.0]);
+    };
+    let white = image(&world(&parts(), &[], floor));
+    let painted = image(&world(&parts(), &[], |document| {
+        floor(document);
+        paint(document, FLOOR, [7, 6], LINEAR, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        let material = &mut document["materials"][FLOOR];
+        let texture = material.as_object_mut().expect("a material").remove("emissiveTexture").expect("a texture");
+        let surface = &mut material["pbrMetallicRoughness"];
+        surface["baseColorTexture"] = texture;
+        surface["metallicFactor"] = json!(1.0);
+        surface["metallicRoughnessTexture"] = json!({"index": 1});
+        let mut yellow = Vec::new();
+        let mut encoder = png::Encoder::new(&mut yellow, 1, 1);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.write_header().and_then(|mut writer| writer.write_image_data(&[255, 255, 0])).expect("an image");
+        let mut push = |list: &str, value: Value| document[list].as_array_mut().expect("a list").push(value);
+        push("images", json!({"uri": format!("data:image/png;base64,{}", STANDARD.encode(&yellow))}));
+        push("textures", json!({"sampler": 0, "source": 1}));
+    }));
+    let mut colours = std::collections::BTreeSet::new();
+    for (one, other) in painted.iter().zip(&white) {
+        assert_eq!(one.centre.is_some(), other.centre.is_some());
+        let Some(centre) = one.centre.filter(|centre| centre.position[1].abs() < 1e-6) else { continue };
+        colours.insert(centre.albedo.map(f32::to_bits));
+        for c in 0..3 {
+            let expected = other.mean[c] * f64::from(centre.albedo[c]);
+            assert!((one.mean[c] - expected).abs() <= 1e-4 * expected, "{centre:?}: {} {expected}", one.mean[c]);
+        }
+    }
+    assert!(colours.len() > 100, "{} colours", colours.len());
 }

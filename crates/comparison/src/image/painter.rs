@@ -168,7 +168,6 @@ impl<'a> Painter<'a> {
         let emission = if radiance && varies != Varies::InColour { self.world.emission(seen) } else { [0.0; 3] };
         let query = match varies {
             _ if cull && !seen.front && !material.double_sided => None,
-            Varies::InColour if material.albedo == [0.0; 3] => None,
             Varies::InColour => Some(Query::radiance(&self.world.lights, [1.0; 3])),
             _ => self.query(seen),
         };

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::View;
-use super::cone::Line;
-use super::facet::Facet;
+use super::cone::{Line, Start};
+use super::facet::{Facet, ROW};
 use super::sight::{Between, Sight};
 use crate::masked::Masked;
 use crate::ray::Ray;
@@ -17,7 +17,7 @@ use crate::vector::{Direction, Vector};
 #[derive(Clone, Copy)]
 pub struct Vantage<'v, R: Real> {
     pub(super) view: &'v View<'v>,
-    pub(super) start: Option<Vector<R>>,
+    pub(super) start: Start<R>,
     pub(super) wanted: R::Mask,
 }
 
@@ -45,33 +45,30 @@ impl<'v, R: Real> Vantage<'v, R> {
     pub fn facet(&self, target: R::Word) -> Facet<R> {
         let facet = match self.view.sights.as_deref() {
             Some([sight]) => Facet::splat(sight.row()),
-            _ => self.looked_up(target),
+            _ => Facet::from_row(self.looked_up(target)),
         };
-        match self.start {
+        match self.start.beside() {
             Some(start) => facet.seen_from(start),
             None => facet,
         }
     }
 
-    #[cold]
     #[inline(never)]
-    fn looked_up(self, target: R::Word) -> Facet<R> {
+    fn looked_up(self, target: R::Word) -> [R; ROW] {
         let view = self.view;
         R::apart(
             #[inline(always)]
-            || {
-                Facet::from_row(match &view.sights {
-                    Some(sights) => R::gather(
-                        target,
-                        #[inline(always)]
-                        |k| sights[k as usize].row(),
-                    ),
-                    None => R::gather(
-                        target,
-                        #[inline(always)]
-                        |k| view.wide(k).row(),
-                    ),
-                })
+            || match &view.sights {
+                Some(sights) => R::gather(
+                    target,
+                    #[inline(always)]
+                    |k| sights[k as usize].row(),
+                ),
+                None => R::gather(
+                    target,
+                    #[inline(always)]
+                    |k| view.wide(k).row(),
+                ),
             },
         )
     }
@@ -143,7 +140,6 @@ impl<'v, R: Real> Vantage<'v, R> {
         }
     }
 
-    #[cold]
     #[inline(never)]
     fn unblocked_by_each(self, sights: &[Sight], y: SurfacePoint<R>, asked: R::Mask) -> R::Mask {
         R::apart(
@@ -242,13 +238,13 @@ impl<'v, R: Real> Vantage<'v, R> {
         mut question: impl FnMut(u32, Line<f32>) -> Option<u32>,
     ) -> (R::Mask, R::Word) {
         let toward = toward.to_array();
-        match self.start {
+        match self.start.beside() {
             None => R::each(
                 asked,
                 word,
                 toward,
                 #[inline(always)]
-                |k, toward| question(k, Line { toward: Vector::from(toward), start: None }),
+                |k, toward| question(k, Line { toward: Vector::from(toward), start: Start::origin() }),
             ),
             Some(start) => R::each(
                 asked,
@@ -256,7 +252,7 @@ impl<'v, R: Real> Vantage<'v, R> {
                 [start.x, start.y, start.z, toward[0], toward[1], toward[2]],
                 #[inline(always)]
                 |k, [x, y, z, u, v, w]| {
-                    question(k, Line { toward: Vector::new(u, v, w), start: Some(Vector::new(x, y, z)) })
+                    question(k, Line { toward: Vector::new(u, v, w), start: Start::at(Vector::new(x, y, z)) })
                 },
             ),
         }
@@ -286,5 +282,5 @@ impl View<'_> {
 
 fn wide(line: &Line<f32>) -> (DVec3, DVec3) {
     let wide = |v: Vector<f32>| DVec3::from_array(v.to_array().map(f64::from));
-    (line.start.map_or(DVec3::ZERO, wide), wide(line.toward))
+    (line.start.beside().map_or(DVec3::ZERO, wide), wide(line.toward))
 }

@@ -34,15 +34,14 @@ impl Batch {
     /// Room for samples that take so many pairs of random numbers, all from x and wanted.
     #[inline]
     pub fn new(pairs: usize) -> Self {
-        let zero = [[0.0; BATCH]; 3];
         Self {
             numbers: Numbers::new(pairs),
             length: 0,
             wanted: [1; BATCH],
             from_points: false,
-            start: zero,
-            worth: zero,
-            divisor: zero,
+            start: [[0.0; BATCH]; 3],
+            worth: [[0.0; BATCH]; 3],
+            divisor: [[0.0; BATCH]; 3],
             rays: [0; BATCH],
         }
     }

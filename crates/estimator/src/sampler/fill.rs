@@ -6,7 +6,7 @@ use twoforms_geometry::lanes::{Instructions, Kernel};
 use twoforms_geometry::real::{Mask, Real, Word};
 
 use super::{Place, Sampler, Spread};
-use crate::numbers::{BATCH, Numbers, ROOM};
+use crate::numbers::{BATCH, Numbers, ROOM, Words};
 use crate::philox::philox4x32_10;
 use crate::xi::{Draws, Key};
 
@@ -147,7 +147,7 @@ impl<S: Spread> Kernel for By<Along<'_, '_>, S> {
         let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, length, numbers, .. } = self.0;
         let common = common(*key, *stream).map(R::Word::splat);
         let mut weights = weights::<S>(&mut numbers.weights);
-        for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
+        for (pair, Words([u, v])) in numbers.pairs.iter_mut().enumerate() {
             let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, *stream, pair as u32).map(R::Word::splat));
             for offset in (0..length).step_by(R::LANES) {
                 let place = Place { index: R::Word::counting(first + offset as u32), seed, common };
@@ -167,7 +167,7 @@ impl<S: Spread> Kernel for By<Across<'_, '_>, S> {
     fn run<R: Real>(self) {
         let Across { parts, rows, numbers, .. } = self.0;
         let mut weights = weights::<S>(&mut numbers.weights);
-        for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
+        for (pair, Words([u, v])) in numbers.pairs.iter_mut().enumerate() {
             let plan = S::plan(parts.n, pair as u32);
             for lane in (0..ROW).step_by(R::LANES) {
                 let mut seeds = Seeds::<R>::none();

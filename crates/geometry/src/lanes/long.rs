@@ -16,7 +16,7 @@ impl<S: Simd> LaneLong<S> {
     #[inline(always)]
     pub(super) fn of(word: LaneWord<S>) -> Self {
         let even: u64x8<S> = word.0.bitcast();
-        Self([even, even >> 32])
+        Self([even, (even >> 32) | (even << 32)])
     }
 }
 

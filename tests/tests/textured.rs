@@ -4,7 +4,7 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use glam::Vec3;
 use serde_json::{Value, json};
 use twoforms_comparison::exactly::{self, with_formula};
-use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering};
+use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering, Shown};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::world::World;
 use twoforms_estimator::density::{LuminanceOnLights, Ready};
@@ -180,7 +180,7 @@ fn image(world: &World) -> Vec<Pixel> {
         light_samples: 4,
         filter: PixelFilter::Point,
         cull: false,
-        radiance: true,
+        quantity: Shown::Radiance,
         seed: SEED,
     };
     rendering.run(world, &world.scene.cameras[0], &|_| ()).expect("finite samples")

@@ -43,7 +43,10 @@ impl Moments {
         for k in (0..whole.len()).step_by(EIGHT) {
             total = total + W::load(&whole[k..]);
         }
-        let mean = (total + padded(rest)).sum() / n;
+        if !rest.is_empty() {
+            total = total + padded(rest);
+        }
+        let mean = total.sum() / n;
         let (mut m2, mut m3, mut m4) = (W::splat(0.0), W::splat(0.0), W::splat(0.0));
         for k in (0..whole.len()).step_by(EIGHT) {
             let d = W::load(&whole[k..]) - W::splat(mean);

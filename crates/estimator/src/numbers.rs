@@ -14,10 +14,15 @@ pub(crate) const ROOM: usize = BATCH + ROW;
 /// ξ of a batch of samples: two words a sample for each pair of numbers that it takes.
 #[derive(Clone, Debug)]
 pub struct Numbers {
-    pub(crate) pairs: Vec<[[u32; ROOM]; 2]>,
+    pub(crate) pairs: Vec<Words>,
     /// What samples count, where they do not count alike.
     pub(crate) weights: Option<Box<[f32; ROOM]>>,
 }
+
+/// The two words of each sample, on lines of the cache.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct Words(pub(crate) [[u32; ROOM]; 2]);
 
 /// ξ of samples that lie side by side in a batch.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +34,7 @@ pub struct Drawn<'n> {
 impl Numbers {
     /// Room for samples that take so many pairs.
     pub fn new(pairs: usize) -> Self {
-        Self { pairs: vec![[[0; ROOM]; 2]; pairs], weights: None }
+        Self { pairs: vec![Words([[0; ROOM]; 2]); pairs], weights: None }
     }
 
     /// ξ of the samples from `offset` on.
@@ -40,7 +45,7 @@ impl Numbers {
 
     /// The words of one sample.
     pub fn words(&self, offset: usize) -> Vec<[u32; 2]> {
-        self.pairs.iter().map(|[u, v]| [u[offset], v[offset]]).collect()
+        self.pairs.iter().map(|Words([u, v])| [u[offset], v[offset]]).collect()
     }
 }
 
@@ -48,7 +53,7 @@ impl Drawn<'_> {
     /// One of the pairs.
     #[inline(always)]
     pub fn xi<R: Real>(&self, pair: usize) -> Xi<R> {
-        Xi::load(&self.numbers.pairs[pair], self.offset)
+        Xi::load(&self.numbers.pairs[pair].0, self.offset)
     }
 
     /// How much each sample counts, 1 in the mean; nothing where all count alike.

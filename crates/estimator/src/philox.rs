@@ -1,6 +1,6 @@
 //! The counter-based generator behind ξ, for many counters at once.
 
-use twoforms_geometry::real::Word;
+use twoforms_geometry::real::{Long, Word};
 
 /// The multiplier of a round for two words.
 const M2: u32 = 0xD256_D193;
@@ -11,28 +11,28 @@ const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 const ROUNDS: usize = 10;
 
 /// Four random words for each counter, by Philox 4×32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as
-/// easy as 1, 2, 3").
+/// easy as 1, 2, 3"): the high words of two products are mixed, their low words go on as they are.
 #[inline(always)]
-pub fn philox4x32_10<W: Word>(counter: [W; 4], key: [u32; 2]) -> [W; 4] {
-    let ([mut a, mut b, mut c, mut d], [mut k, mut l]) = (counter, key);
+pub fn philox4x32_10<W: Word>([a, b, c, d]: [W; 4], [mut k, mut l]: [u32; 2]) -> [W; 4] {
+    let [mut a, mut b, mut c, mut d] = [a.long(), b.long(), c.long(), d.long()];
     for _ in 0..ROUNDS {
-        let (a_high, a_low) = a.multiply_wide(M[0]);
-        let (c_high, c_low) = c.multiply_wide(M[1]);
-        [a, b, c, d] = [c_high ^ b ^ W::splat(k), c_low, a_high ^ d ^ W::splat(l), a_low];
+        let (p, q) = (a.times(M[0]), c.times(M[1]));
+        [a, b, c, d] = [q.high() ^ b ^ W::splat(k).long(), q, p.high() ^ d ^ W::splat(l).long(), p];
         (k, l) = (k.wrapping_add(WEYL[0]), l.wrapping_add(WEYL[1]));
     }
-    [a, b, c, d]
+    [a.word(), b.word(), c.word(), d.word()]
 }
 
 /// Two random words for each counter and key, by Philox 2×32-10 (of the same family and paper).
 #[inline(always)]
-pub fn philox2x32_10<W: Word>([mut a, mut b]: [W; 2], mut key: W) -> [W; 2] {
+pub fn philox2x32_10<W: Word>([a, b]: [W; 2], mut key: W) -> [W; 2] {
+    let [mut a, mut b] = [a.long(), b.long()];
     for _ in 0..ROUNDS {
-        let (high, low) = a.multiply_wide(M2);
-        [a, b] = [high ^ key ^ b, low];
+        let p = a.times(M2);
+        [a, b] = [p.high() ^ key.long() ^ b, p];
         key = key.wrapping_add(W::splat(WEYL[0]));
     }
-    [a, b]
+    [a.word(), b.word()]
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use twoforms_geometry::lanes::{Instructions, Kernel};
-use twoforms_geometry::real::{Mask, Real};
+use twoforms_geometry::real::Real;
 use twoforms_geometry::wide::{EIGHT, Wide};
 
 use crate::batch::Batch;
@@ -70,9 +70,9 @@ impl Kernel for Add<'_> {
 #[inline(always)]
 fn add<W: Wide>(batch: &Batch, estimate: &mut Estimate) -> Result<(), usize> {
     let length = batch.length.next_multiple_of(EIGHT);
-    let (zero, weights) = (W::splat(0.0), LUMINANCE.map(W::splat));
+    let (zero, one, weights) = (W::splat(0.0), W::splat(1.0), LUMINANCE.map(W::splat));
     let (mut sums, mut low, mut high) = ([zero; 3], W::splat(estimate.range.low), W::splat(estimate.range.high));
-    let mut luminances = [0.0; BATCH];
+    let (mut hits, mut luminances) = (zero, [0.0; BATCH]);
     for k in (0..length).step_by(EIGHT) {
         let [r, g, b] =
             [W::widen(&batch.worth[0][k..]), W::widen(&batch.worth[1][k..]), W::widen(&batch.worth[2][k..])];
@@ -80,7 +80,7 @@ fn add<W: Wide>(batch: &Batch, estimate: &mut Estimate) -> Result<(), usize> {
         luminance.store(&mut luminances[k..]);
         sums = [sums[0] + r, sums[1] + g, sums[2] + b];
         let hit = !luminance.equals(zero);
-        estimate.hits += u64::from(hit.count());
+        hits = W::select(hit, hits + one, hits);
         low = W::select(hit & luminance.lt(low), luminance, low);
         high = W::select(hit & high.lt(luminance), luminance, high);
     }
@@ -91,6 +91,7 @@ fn add<W: Wide>(batch: &Batch, estimate: &mut Estimate) -> Result<(), usize> {
     for c in 0..3 {
         estimate.value[c] += sums[c].sum();
     }
+    estimate.hits += hits.sum() as u64;
     estimate.range = estimate::Range { low: least(low), high: -least(zero - high) };
     estimate.luminance = estimate.luminance + moments;
     for rays in &batch.rays[..batch.length] {

@@ -31,6 +31,9 @@ pub trait Word:
     + Shl<u32, Output = Self>
     + Shr<u32, Output = Self>
 {
+    /// Words in places of 64 bits.
+    type Long: Long<Self>;
+
     /// The same word for every sample.
     fn splat(value: u32) -> Self;
     /// One word for each sample in order: first, first + 1, …, modulo 2³².
@@ -47,8 +50,13 @@ pub trait Word:
     fn wrapping_mul(self, other: Self) -> Self;
     /// The sum of all samples' words modulo 2³².
     fn sum(self) -> u32;
-    /// The high and the low word of the product with a constant.
-    fn multiply_wide(self, factor: u32) -> (Self, Self);
+    /// The same words in places of 64 bits.
+    fn long(self) -> Self::Long;
+    /// The high word of the product with a constant.
+    #[inline(always)]
+    fn multiply_high(self, factor: u32) -> Self {
+        self.long().times(factor).high().word()
+    }
     /// The bits in the opposite order.
     #[inline(always)]
     fn reverse_bits(self) -> Self {
@@ -56,6 +64,16 @@ pub trait Word:
         let word = swap_bits(swap_bits(word, 4, 0x0F0F_0F0F), 8, 0x00FF_00FF);
         (word >> 16) | (word << 16)
     }
+}
+
+/// Words in places of 64 bits, where they are multiplied. Only the low 32 bits are the word.
+pub trait Long<W>: Copy + BitXor<Output = Self> {
+    /// The products of the words with a constant, all 64 bits of them; their low words are where the words were.
+    fn times(self, factor: u32) -> Self;
+    /// The high words.
+    fn high(self) -> Self;
+    /// The words by themselves.
+    fn word(self) -> W;
 }
 
 /// Swaps neighbouring groups of so many bits; the lower group of each two is where `low` has ones.
@@ -150,6 +168,8 @@ impl Mask for bool {
 }
 
 impl Word for u32 {
+    type Long = u64;
+
     #[inline(always)]
     fn splat(value: u32) -> Self {
         value
@@ -183,9 +203,23 @@ impl Word for u32 {
         self
     }
     #[inline(always)]
-    fn multiply_wide(self, factor: u32) -> (Self, Self) {
-        let product = u64::from(self) * u64::from(factor);
-        ((product >> 32) as u32, product as u32)
+    fn long(self) -> u64 {
+        u64::from(self)
+    }
+}
+
+impl Long<u32> for u64 {
+    #[inline(always)]
+    fn times(self, factor: u32) -> Self {
+        Self::from(self.word()) * Self::from(factor)
+    }
+    #[inline(always)]
+    fn high(self) -> Self {
+        self >> 32
+    }
+    #[inline(always)]
+    fn word(self) -> u32 {
+        self as u32
     }
 }
 

@@ -1,6 +1,7 @@
 //! Beams: the samples of a tile share what the eye sees through it, and what each surface there sees of the lights.
 
 use glam::DVec3;
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimate::NotFinite;
 use twoforms_estimator::strategy::Known;
 use twoforms_geometry::frame::Frame;
@@ -12,7 +13,7 @@ use super::chunk::{self, AddUp, Aim, Chunk, Look, Piece, Sum};
 use super::face::Face;
 use super::painter::{Painter, Surface, Varies};
 use super::receive::Receive;
-use super::{Centre, Crop, Pixel, PixelFilter, tile};
+use super::{Centre, Crop, Pixel, PixelFilter, Rendering, tile};
 use crate::error::BrokenPixel;
 use crate::world::Seen;
 
@@ -67,18 +68,20 @@ impl<'a> Beam<'a> {
     fn sums(&self, places: &[[u32; 2]], chunk: &mut Chunk) -> Result<Vec<Sum>, BrokenPixel> {
         let mut stages: Vec<Option<Stage>> = self.faces.iter().map(|_| None).collect();
         let mut sums = vec![Sum::default(); places.len()];
-        let spp = self.painter.rendering.spp;
+        let Rendering { spp, strategy, .. } = *self.painter.rendering;
+        let mut batch = Batch::new(strategy.pairs());
+        batch.from_points = true;
         chunk.clear();
         for (pixel, &[x, y]) in places.iter().enumerate() {
             for first in (0..spp).step_by(chunk::SIZE) {
                 let samples = first..spp.min(first.saturating_add(chunk::SIZE as u32));
                 if !chunk.has_room(samples.len()) {
-                    self.evaluate(chunk, &mut stages, places, &mut sums)?;
+                    self.evaluate(chunk, &mut batch, &mut stages, places, &mut sums)?;
                 }
                 chunk.push(pixel, samples, self.painter.index(x, y), [x - self.tile.x0, y - self.tile.y0]);
             }
         }
-        self.evaluate(chunk, &mut stages, places, &mut sums)?;
+        self.evaluate(chunk, &mut batch, &mut stages, places, &mut sums)?;
         Ok(sums)
     }
 
@@ -86,6 +89,7 @@ impl<'a> Beam<'a> {
     fn evaluate(
         &self,
         chunk: &mut Chunk,
+        batch: &mut Batch,
         stages: &mut [Option<Stage<'a>>],
         places: &[[u32; 2]],
         sums: &mut [Sum],
@@ -93,9 +97,12 @@ impl<'a> Beam<'a> {
         let spread = self.painter.rendering.filter == PixelFilter::Box;
         lanes::run(Aim { chunk, axes: self.axes.map(round), samples: self.painter.camera_samples(), spread });
         lanes::run(Look { chunk, vista: &self.vista });
-        for pane in chunk.panes() {
+        for pane in 0..self.faces.len() as u32 {
+            if chunk.rows_that_meet(pane).next().is_none() {
+                continue;
+            }
             let stage = stages[pane as usize].get_or_insert_with(|| self.stage(pane as usize));
-            self.light(chunk, stage, pane).map_err(|(k, source)| self.broken(chunk, places, k, source))?;
+            self.light(chunk, batch, stage, pane).map_err(|(k, source)| self.broken(chunk, places, k, source))?;
         }
         if let Some(piece) = lanes::run(AddUp { chunk, sums }) {
             return Err(self.not_finite(places[piece.pixel], chunk, piece));
@@ -105,7 +112,7 @@ impl<'a> Beam<'a> {
     }
 
     /// Samples the lights wherever a pane is met: together, or where its points see the lights too differently one by one.
-    fn light(&self, chunk: &mut Chunk, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
+    fn light(&self, chunk: &mut Chunk, batch: &mut Batch, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
         if stage.surface.varies == Varies::Wholly {
             return self.shade_each(chunk, pane);
         }
@@ -115,7 +122,7 @@ impl<'a> Beam<'a> {
                 chunk.add(k, emission, 0);
             }
         }
-        self.receive(chunk, stage, pane)?;
+        self.receive(chunk, batch, stage, pane)?;
         if stage.surface.varies == Varies::InColour {
             for k in chunk.that_meet(pane).collect::<Vec<_>>() {
                 let colour = self.painter.colour(&self.met(chunk, k, pane));
@@ -137,12 +144,18 @@ impl<'a> Beam<'a> {
     }
 
     /// Adds the light that the pane receives, wherever it is met.
-    fn receive(&self, chunk: &mut Chunk, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
+    fn receive(
+        &self,
+        chunk: &mut Chunk,
+        batch: &mut Batch,
+        stage: &Stage,
+        pane: u32,
+    ) -> Result<(), (usize, NotFinite)> {
         let Some(query) = &stage.surface.query else { return Ok(()) };
         if let Some(Lit { view, along }) = &stage.lit {
             let light = self.painter.light_samples();
             let estimator = self.painter.prepared.at(view, query, &Known::default());
-            Receive { estimator: &*estimator, light, pane, along: *along }.all(chunk);
+            Receive { estimator: &*estimator, light, pane, along: *along }.all(chunk, batch);
             return Ok(());
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 use twoforms_estimator::moments::Moments;
-use twoforms_estimator::numbers::Numbers;
-use twoforms_estimator::sampler::{ROW, Row};
+use twoforms_estimator::numbers::{BATCH, Numbers};
+use twoforms_estimator::sampler::{ROW, ROWS, Row};
 use twoforms_geometry::lanes::Kernel;
 use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::vector::{Vector, round};
@@ -18,11 +18,9 @@ pub(super) const SIZE: usize = 512;
 /// The pane of a sample that meets nothing.
 const NOTHING: u32 = u32::MAX;
 
-/// Some camera samples of a tile. Arrays have one entry a sample.
+/// Some camera samples of a tile. Arrays have one entry a sample, and stand on lines of the cache.
+#[repr(C, align(64))]
 pub(super) struct Chunk {
-    /// Which samples they are.
-    pub(super) pieces: Vec<Piece>,
-    len: usize,
     streams: [[u32; SIZE]; 2],
     /// The pixel's corner in the tile, in pixels.
     corner: [[f32; SIZE]; 2],
@@ -36,6 +34,9 @@ pub(super) struct Chunk {
     pub(super) value: [[f64; SIZE]; 3],
     /// Rays asked for by light samples.
     pub(super) rays: [u32; SIZE],
+    /// Which samples they are.
+    pub(super) pieces: Vec<Piece>,
+    len: usize,
 }
 
 /// Consecutive camera samples of one pixel.
@@ -75,8 +76,8 @@ impl Chunk {
     /// Removes all samples.
     pub(super) fn clear(&mut self) {
         self.pieces.clear();
-        self.value = [[0.0; SIZE]; 3];
-        self.rays = [0; SIZE];
+        self.value.iter_mut().for_each(|channel| channel[..self.len].fill(0.0));
+        self.rays[..self.len].fill(0);
         self.len = 0;
     }
 
@@ -105,17 +106,11 @@ impl Chunk {
         self.pieces.push(piece);
     }
 
-    /// The panes that are met, once each.
-    pub(super) fn panes(&self) -> Vec<u32> {
-        let mut met: Vec<u32> = Vec::new();
-        let mut last = NOTHING;
-        for &pane in &self.pane[..self.len] {
-            if pane != last && pane != NOTHING && !met.contains(&pane) {
-                met.push(pane);
-            }
-            last = pane;
-        }
-        met
+    /// Where the rows begin in which some sample meets a pane.
+    pub(super) fn rows_that_meet(&self, pane: u32) -> impl Iterator<Item = usize> + use<'_> {
+        let meets =
+            move |&from: &usize| self.pane[from..from + ROW].iter().fold(false, |some, &met| some | (met == pane));
+        (0..self.len).step_by(ROW).filter(meets)
     }
 
     /// The samples that meet a pane.
@@ -138,16 +133,21 @@ impl Chunk {
         [self.streams[0][k], self.streams[1][k]]
     }
 
-    /// Which random numbers the camera samples from `k` on take: each pixel has a stream, and its samples follow each other
-    /// in it.
+    /// The rows from a sample on, as many as make a batch.
+    fn rows_from(&self, k: usize) -> Vec<Row> {
+        (k..self.len).step_by(ROW).take(ROWS).map(|from| Row { from, index: 0 }).collect()
+    }
+
+    /// The streams of all samples, in two parts.
+    pub(super) fn streams(&self) -> [&[u32; SIZE]; 2] {
+        self.streams.each_ref()
+    }
+
+    /// Of the samples from `k` on, 1 for those that meet a pane and 0 for others.
     #[inline(always)]
-    fn row(&self, k: usize, samples: &Samples) -> Row {
-        let (mut streams, mut first) = ([[0; ROW]; 2], [0; ROW]);
-        for lane in 0..ROW.min(SIZE - k) {
-            streams[0][lane] = self.streams[0][k + lane];
-            first[lane] = self.streams[1][k + lane] * samples.each;
-        }
-        Row { key: samples.key, n: samples.spp * samples.each, streams, first }
+    pub(super) fn meets<R: Real>(&self, k: usize, pane: u32) -> R::Word {
+        let met = R::same(R::Word::load(&self.pane[k..]), R::Word::splat(pane));
+        R::select_word(met, R::Word::splat(1), R::Word::splat(0))
     }
 
     /// Adds to the value of a sample, RGB, and to its rays.
@@ -163,11 +163,6 @@ impl Chunk {
         for c in 0..3 {
             self.value[c][k] *= by[c];
         }
-    }
-
-    /// How many camera samples there are.
-    pub(super) fn len(&self) -> usize {
-        self.len
     }
 
     /// Directions of the samples from `k` on, in the frame of the eye, and 1/t to the surfaces along them.
@@ -200,14 +195,13 @@ impl Kernel for Aim<'_> {
     fn run<R: Real>(self) {
         let [first, right, down] = self.axes;
         let chunk = self.chunk;
-        let (samples, mut numbers) = (&self.samples, Numbers::new(1));
+        let mut numbers = Numbers::new(1);
         for k in (0..chunk.len).step_by(R::LANES) {
-            let [dx, dy] = if self.spread {
-                samples.fill(&chunk.row(k, samples), &mut numbers);
-                numbers.from(0).xi::<R>(0).uv()
-            } else {
-                [R::splat(0.5), R::splat(0.5)]
-            };
+            if self.spread && k % BATCH == 0 {
+                self.samples.fill(chunk.streams(), &chunk.rows_from(k), &mut numbers);
+            }
+            let [dx, dy] =
+                if self.spread { numbers.from(k % BATCH).xi::<R>(0).uv() } else { [R::splat(0.5), R::splat(0.5)] };
             let (x, y) = (R::load(&chunk.corner[0][k..]) + dx, R::load(&chunk.corner[1][k..]) + dy);
             let toward = Vector::<R>::splat(first) + Vector::splat(right) * x + Vector::splat(down) * y;
             toward.x.store(&mut chunk.toward[0][k..]);
@@ -235,6 +229,8 @@ impl Kernel for Look<'_> {
             glimpse.per_t.store(&mut chunk.per_t[k..]);
             R::select_word(some, glimpse.pane, R::Word::splat(NOTHING)).store(&mut chunk.pane[k..]);
         }
+        let len = chunk.len;
+        chunk.pane[len..len.next_multiple_of(ROW)].fill(NOTHING);
     }
 }
 

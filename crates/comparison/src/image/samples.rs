@@ -1,9 +1,11 @@
 //! The random numbers of a pixel.
 
 use twoforms_estimator::numbers::Numbers;
-use twoforms_estimator::sampler::{Row, Sampler, Stream};
+use twoforms_estimator::sampler::{Parts, Row, Sampler, Stream};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
+
+use super::chunk::SIZE;
 
 /// The samples of a pixel, one set of points, shared out among its camera samples.
 #[derive(Clone, Copy)]
@@ -24,8 +26,10 @@ impl Samples {
         Stream { sampler: self.sampler, draws, n: self.spp * self.each }
     }
 
-    /// Fills the batch with ξ of a row of camera samples, one each.
-    pub(super) fn fill(&self, row: &Row, numbers: &mut Numbers) {
-        row.fill(self.sampler, self.instructions, 1, numbers);
+    /// Fills the batch with ξ of rows of camera samples, of which the pixels' numbers and places among their samples are given.
+    pub(super) fn fill(&self, [pixels, parts]: [&[u32; SIZE]; 2], rows: &[Row], numbers: &mut Numbers) {
+        let Self { sampler, key, each, spp, instructions } = *self;
+        let streams: [&[u32]; 2] = [pixels, &[0; SIZE]];
+        Parts { sampler, key, n: spp * each, each, streams, parts }.fill(instructions, rows, numbers);
     }
 }

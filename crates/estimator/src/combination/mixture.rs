@@ -59,7 +59,7 @@ impl Split {
         let from_start = if side == 0 { word } else { word.wrapping_sub(R::Word::splat(self.bound as u32)) };
         let factor = u128::from(u64::MAX) / u128::from(width);
         let (whole, part) = ((factor >> 32) as u32, factor as u32);
-        let (high, _) = from_start.multiply_wide(part);
+        let high = from_start.multiply_high(part);
         Xi::new([from_start.wrapping_mul(R::Word::splat(whole)).wrapping_add(high), v])
     }
 }

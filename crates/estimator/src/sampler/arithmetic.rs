@@ -20,7 +20,7 @@ impl Divisor {
     #[inline(always)]
     pub(super) fn split<R: Real>(self, word: R::Word) -> [R::Word; 2] {
         let by = R::Word::splat(self.by);
-        let (quotient, _) = word.multiply_wide(self.reciprocal);
+        let quotient = word.multiply_high(self.reciprocal);
         let rest = word.wrapping_sub(quotient.wrapping_mul(by));
         let whole = R::below(rest, by);
         let more = [quotient.wrapping_add(R::Word::splat(1)), rest.wrapping_sub(by)];
@@ -47,8 +47,8 @@ impl Strata {
     /// The word of a place in a stratum: (stratum + place/2³²) / count · 2³², to two units in the last place.
     #[inline(always)]
     pub(super) fn word<W: Word>(self, stratum: W, place: W) -> W {
-        let (carry, _) = stratum.multiply_wide(self.low);
-        let (inside, _) = place.multiply_wide(self.high);
+        let carry = stratum.multiply_high(self.low);
+        let inside = place.multiply_high(self.high);
         stratum.wrapping_mul(W::splat(self.high)).wrapping_add(carry).wrapping_add(inside)
     }
 }
@@ -65,7 +65,7 @@ pub(super) fn mix<W: Word>(word: W) -> W {
 /// A random word below a bound: the high part of bound times a uniform word.
 #[inline(always)]
 pub(super) fn below<W: Word>(word: W, bound: u32) -> W {
-    word.multiply_wide(bound).0
+    word.multiply_high(bound)
 }
 
 /// a + b modulo m, both below m < 2³¹.

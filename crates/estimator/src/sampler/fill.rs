@@ -1,18 +1,19 @@
 //! Filling a batch with random numbers: samples of one estimate in a row, or of many estimates side by side.
 
 use std::marker::PhantomData;
-use std::ops::Range;
 
 use twoforms_geometry::lanes::{Instructions, Kernel};
-use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::real::{Mask, Real, Word};
 
 use super::{Place, Sampler, Spread};
-use crate::numbers::{Numbers, ROOM};
+use crate::numbers::{BATCH, Numbers, ROOM, Words};
 use crate::philox::philox4x32_10;
 use crate::xi::{Draws, Key};
 
-/// Estimates that lie side by side, at most.
+/// Samples that lie side by side, at most.
 pub const ROW: usize = 16;
+/// Rows of a batch.
+pub const ROWS: usize = BATCH / ROW;
 
 /// The random numbers of one estimate, as a sampler spreads them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,12 +29,7 @@ pub struct Stream {
 impl Stream {
     /// Fills the batch with ξ of `length` samples from `first` on.
     pub fn fill(&self, instructions: Instructions, first: u32, length: usize, numbers: &mut Numbers) {
-        self.fill_at(instructions, first, 0..length, numbers);
-    }
-
-    /// Fills places of the batch with ξ of as many samples from `first` on; what follows the places is written to as well.
-    pub fn fill_at(&self, instructions: Instructions, first: u32, places: Range<usize>, numbers: &mut Numbers) {
-        self.sampler.run(Along { stream: self, instructions, first, places, numbers });
+        self.sampler.run(Along { stream: self, instructions, first, length, numbers });
     }
 
     /// ξ of one sample that takes so many pairs, at the batch's beginning.
@@ -44,24 +40,36 @@ impl Stream {
     }
 }
 
-/// Samples of many estimates side by side, each with a stream and an index of its own.
-#[derive(Clone, Debug)]
-pub struct Row {
+/// Many estimates side by side, each of which takes a part of a stream.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<'p> {
+    /// How a stream is spread.
+    pub sampler: Sampler,
     /// Who asks.
     pub key: Key,
-    /// N of each estimate.
+    /// N: samples of a stream.
     pub n: u32,
-    /// The streams.
-    pub streams: [[u32; ROW]; 2],
-    /// Index of each one's first sample.
-    pub first: [u32; ROW],
+    /// Samples of a part.
+    pub each: u32,
+    /// The stream of each estimate.
+    pub streams: [&'p [u32]; 2],
+    /// Which part of it the estimate takes.
+    pub parts: &'p [u32],
 }
 
-impl Row {
-    /// Fills the batch with ξ of these samples, then of the next index of each, and so on, for `length` indices: the
-    /// i-th index of sample k lies at i × [`ROW`] + k.
-    pub fn fill(&self, sampler: Sampler, instructions: Instructions, length: usize, numbers: &mut Numbers) {
-        sampler.run(Across { row: self, instructions, length, numbers });
+/// One sample of each of [`ROW`] estimates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Row {
+    /// The first of the estimates.
+    pub from: usize,
+    /// Which sample of each.
+    pub index: u32,
+}
+
+impl Parts<'_> {
+    /// Fills the batch with ξ of rows, one after the other.
+    pub fn fill(&self, instructions: Instructions, rows: &[Row], numbers: &mut Numbers) {
+        self.sampler.run(Across { parts: self, instructions, rows, numbers });
     }
 }
 
@@ -74,14 +82,14 @@ struct Along<'s, 'n> {
     stream: &'s Stream,
     instructions: Instructions,
     first: u32,
-    places: Range<usize>,
+    length: usize,
     numbers: &'n mut Numbers,
 }
 
 struct Across<'s, 'n> {
-    row: &'s Row,
+    parts: &'s Parts<'s>,
     instructions: Instructions,
-    length: usize,
+    rows: &'s [Row],
     numbers: &'n mut Numbers,
 }
 
@@ -136,13 +144,13 @@ impl<S: Spread> Kernel for By<Along<'_, '_>, S> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, places, numbers, .. } = self.0;
+        let Along { stream: Stream { draws: Draws { key, stream }, n, .. }, first, length, numbers, .. } = self.0;
         let common = common(*key, *stream).map(R::Word::splat);
         let mut weights = weights::<S>(&mut numbers.weights);
-        for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
+        for (pair, Words([u, v])) in numbers.pairs.iter_mut().enumerate() {
             let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, *stream, pair as u32).map(R::Word::splat));
-            for offset in places.clone().step_by(R::LANES) {
-                let place = Place { index: R::Word::counting(first + (offset - places.start) as u32), seed, common };
+            for offset in (0..length).step_by(R::LANES) {
+                let place = Place { index: R::Word::counting(first + offset as u32), seed, common };
                 put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
                 if let Some(weights) = &mut weights {
                     S::weight::<R>(&plan, &place).store(&mut weights[offset..]);
@@ -157,22 +165,59 @@ impl<S: Spread> Kernel for By<Across<'_, '_>, S> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Across { row: Row { key, n, streams, first }, length, numbers, .. } = self.0;
+        let Across { parts, rows, numbers, .. } = self.0;
         let mut weights = weights::<S>(&mut numbers.weights);
-        for lane in (0..ROW).step_by(R::LANES) {
-            let streams = [R::Word::load(&streams[0][lane..]), R::Word::load(&streams[1][lane..])];
-            let (common, first) = (common(*key, streams), R::Word::load(&first[lane..]));
-            for (pair, [u, v]) in numbers.pairs.iter_mut().enumerate() {
-                let (plan, seed) = (S::plan(*n, pair as u32), seed(*key, streams, pair as u32));
-                for index in 0..length {
-                    let offset = index * ROW + lane;
-                    let place = Place { index: first.wrapping_add(R::Word::splat(index as u32)), seed, common };
+        for (pair, Words([u, v])) in numbers.pairs.iter_mut().enumerate() {
+            let plan = S::plan(parts.n, pair as u32);
+            for lane in (0..ROW).step_by(R::LANES) {
+                let mut seeds = Seeds::<R>::none();
+                for (k, row) in rows.iter().enumerate() {
+                    let (from, offset) = (row.from + lane, k * ROW + lane);
+                    seeds.follow(parts, from, pair as u32);
+                    let place =
+                        Place { index: parts.index::<R>(from, row.index), seed: seeds.seed, common: seeds.common };
                     put::<S, R>(&plan, &place, [&mut u[offset..], &mut v[offset..]]);
                     if let Some(weights) = &mut weights {
                         S::weight::<R>(&plan, &place).store(&mut weights[offset..]);
                     }
                 }
             }
+        }
+    }
+}
+
+impl Parts<'_> {
+    /// Indices of this sample of the estimates from `from` on, in their streams.
+    #[inline(always)]
+    fn index<R: Real>(&self, from: usize, index: u32) -> R::Word {
+        let first = R::Word::load(&self.parts[from..]).wrapping_mul(R::Word::splat(self.each));
+        first.wrapping_add(R::Word::splat(index))
+    }
+}
+
+/// The random words of streams side by side. Estimates that follow each other often share their streams.
+struct Seeds<R: Real> {
+    known: bool,
+    streams: [R::Word; 2],
+    seed: [R::Word; 4],
+    common: [R::Word; 2],
+}
+
+impl<R: Real> Seeds<R> {
+    #[inline(always)]
+    fn none() -> Self {
+        let zero = R::Word::splat(0);
+        Self { known: false, streams: [zero; 2], seed: [zero; 4], common: [zero; 2] }
+    }
+
+    /// Moves on to the streams of the estimates from `from` on.
+    #[inline(always)]
+    fn follow(&mut self, parts: &Parts, from: usize, pair: u32) {
+        let streams = [R::Word::load(&parts.streams[0][from..]), R::Word::load(&parts.streams[1][from..])];
+        let other = !R::same(streams[0], self.streams[0]) | !R::same(streams[1], self.streams[1]);
+        if !self.known || other.any() {
+            (self.known, self.streams) = (true, streams);
+            (self.seed, self.common) = (seed(parts.key, streams, pair), common(parts.key, streams));
         }
     }
 }

@@ -18,7 +18,7 @@ mod sobol;
 use std::fmt;
 use std::str::FromStr;
 
-pub use fill::{ROW, Row, Stream};
+pub use fill::{Parts, ROW, ROWS, Row, Stream};
 use twoforms_geometry::real::Real;
 
 use crate::philox::philox2x32_10;

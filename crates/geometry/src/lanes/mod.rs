@@ -9,6 +9,7 @@
 
 mod eight;
 mod instructions;
+mod long;
 mod operators;
 mod proof;
 mod sixteen;

@@ -3,11 +3,10 @@
 use std::borrow::Borrow;
 use std::fmt;
 
-use fearless_simd::{
-    Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, SimdWiden, f32x16, mask32x16, u32x16, u64x8,
-};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, SimdWiden, f32x16, mask32x16, u32x16};
 
 use super::eight::LaneWide;
+use super::long::LaneLong;
 use super::proof::proof;
 use crate::real::{Mask, Real, Word};
 
@@ -258,6 +257,8 @@ impl<S: Simd> Mask for LaneMask<S> {
 }
 
 impl<S: Simd> Word for LaneWord<S> {
+    type Long = LaneLong<S>;
+
     #[inline(always)]
     fn splat(value: u32) -> Self {
         Self(u32x16::splat(proof(), value))
@@ -293,16 +294,9 @@ impl<S: Simd> Word for LaneWord<S> {
     fn sum(self) -> u32 {
         self.0.reduce_sum()
     }
-    /// Even and odd words are multiplied apart, in 64 bits.
     #[inline(always)]
-    fn multiply_wide(self, factor: u32) -> (Self, Self) {
-        let pairs: u64x8<S> = self.0.bitcast();
-        let low = u64x8::splat(proof(), 0xFFFF_FFFF);
-        let factor = u64x8::splat(proof(), u64::from(factor));
-        let (even, odd) = ((pairs & low) * factor, (pairs >> 32) * factor);
-        let high_words = (even >> 32) | (odd & !low);
-        let low_words = (even & low) | (odd << 32);
-        (Self(high_words.bitcast()), Self(low_words.bitcast()))
+    fn long(self) -> LaneLong<S> {
+        LaneLong::of(self)
     }
 }
 

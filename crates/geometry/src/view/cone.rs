@@ -10,8 +10,42 @@ use crate::vector::{Vector, round};
 pub struct Line<R> {
     /// Its direction, of any length.
     pub toward: Vector<R>,
-    /// Where it starts, if not at the origin.
-    pub start: Option<Vector<R>>,
+    /// Where it starts.
+    pub start: Start<R>,
+}
+
+/// Where lines start: at the origin, or beside it. What an `Option` would say, in two fields: an `Option` of vectors in lanes
+/// is copied through memory, at addresses that stores cannot be forwarded from.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<R> {
+    moved: bool,
+    point: Vector<R>,
+}
+
+impl<R: Real> Start<R> {
+    /// The origin.
+    #[inline(always)]
+    pub(crate) fn origin() -> Self {
+        Self { moved: false, point: Vector::splat([0.0; 3]) }
+    }
+
+    /// A point beside it.
+    #[inline(always)]
+    pub(crate) fn at(point: Vector<R>) -> Self {
+        Self { moved: true, point }
+    }
+
+    /// The point.
+    #[inline(always)]
+    pub fn point(self) -> Vector<R> {
+        self.point
+    }
+
+    /// The point, if it is not the origin.
+    #[inline(always)]
+    pub fn beside(self) -> Option<Vector<R>> {
+        self.moved.then_some(self.point)
+    }
 }
 
 /// The lines from x that pass through a convex polygon of three or four sides. What stands between x and a target, and
@@ -49,7 +83,7 @@ impl Side {
     #[inline(always)]
     fn product<R: Real>(&self, line: &Line<R>) -> R {
         let product = Vector::splat(self.normal).dot(line.toward);
-        match line.start {
+        match line.start.beside() {
             Some(start) => product + start.cross(line.toward).dot(Vector::splat(self.along)),
             None => product,
         }
@@ -83,7 +117,7 @@ impl Cone {
         if let Some(d) = fourth {
             inside = inside & zero.le(d);
         }
-        let (Some((n, s)), Some(start)) = (self.straddled, line.start) else { return inside };
+        let (Some((n, s)), Some(start)) = (self.straddled, line.start.beside()) else { return inside };
         let mut mirrored = a.le(zero) & b.le(zero) & c.le(zero);
         if let Some(d) = fourth {
             mirrored = mirrored & d.le(zero);

@@ -24,6 +24,7 @@ use crate::real::{Mask, Real};
 use crate::vector::Vector;
 
 pub use cone::Cone;
+use cone::Start;
 use facet::Wide;
 pub use facet::{Facet, Standing};
 pub use prospect::{Need, Prospect, prospects};
@@ -72,13 +73,13 @@ impl<'g> View<'g> {
     /// All samples look from x.
     #[inline(always)]
     pub fn from_x<R: Real>(&self) -> Vantage<'_, R> {
-        Vantage { view: self, start: None, wanted: R::Mask::splat(true) }
+        Vantage { view: self, start: Start::origin(), wanted: R::Mask::splat(true) }
     }
 
     /// Each sample looks from its own point of the footprint, in the frame of x.
     #[inline(always)]
     pub fn from_points<R: Real>(&self, start: Vector<R>) -> Vantage<'_, R> {
-        Vantage { view: self, start: Some(start), wanted: R::Mask::splat(true) }
+        Vantage { view: self, start: Start::at(start), wanted: R::Mask::splat(true) }
     }
 
     /// Where x is and which way it faces.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::View;
-use super::cone::Line;
-use super::facet::Facet;
+use super::cone::{Line, Start};
+use super::facet::{Facet, ROW};
 use super::sight::{Between, Sight};
 use crate::masked::Masked;
 use crate::ray::Ray;
@@ -17,7 +17,7 @@ use crate::vector::{Direction, Vector};
 #[derive(Clone, Copy)]
 pub struct Vantage<'v, R: Real> {
     pub(super) view: &'v View<'v>,
-    pub(super) start: Option<Vector<R>>,
+    pub(super) start: Start<R>,
     pub(super) wanted: R::Mask,
 }
 
@@ -37,7 +37,7 @@ impl<'v, R: Real> Vantage<'v, R> {
     /// The points of the footprint, in metres in the frame of x; none where all samples look from x itself.
     #[inline(always)]
     pub fn footprint(&self) -> Option<Vector<R>> {
-        self.start
+        self.start.beside()
     }
 
     /// What x sees.
@@ -49,10 +49,7 @@ impl<'v, R: Real> Vantage<'v, R> {
     /// Where samples look from, in the frame of x.
     #[inline(always)]
     pub fn start(&self) -> Vector<R> {
-        self.start.unwrap_or_else(
-            #[inline(always)]
-            || Vector::splat([0.0; 3]),
-        )
+        self.start.point()
     }
 
     /// A position said from where its sample looks from, said from x.
@@ -66,54 +63,18 @@ impl<'v, R: Real> Vantage<'v, R> {
     pub fn facet(&self, target: R::Word) -> Facet<R> {
         let facet = match self.view.sights.as_deref() {
             Some([sight]) => Facet::splat(sight.row()),
-            _ => self.looked_up(target),
+            _ => Facet::from_row(self.view.looked_up(target)),
         };
-        match self.start {
+        match self.start.beside() {
             Some(start) => facet.seen_from(start),
             None => facet,
         }
     }
 
-    #[cold]
-    #[inline(never)]
-    fn looked_up(self, target: R::Word) -> Facet<R> {
-        let view = self.view;
-        R::apart(
-            #[inline(always)]
-            || {
-                Facet::from_row(match &view.sights {
-                    Some(sights) => R::gather(
-                        target,
-                        #[inline(always)]
-                        |k| sights[k as usize].row(),
-                    ),
-                    None => R::gather(
-                        target,
-                        #[inline(always)]
-                        |k| view.wide(k).row(),
-                    ),
-                })
-            },
-        )
-    }
-
     /// Whether the line along Ψ meets a target, whatever stands between and whichever side it shows.
-    #[inline(never)]
-    pub fn meets(self, target: R::Word, psi: Direction<R>) -> R::Mask {
-        let view = self.view;
-        R::apart(
-            #[inline(always)]
-            || {
-                self.each(
-                    self.wanted,
-                    target,
-                    psi.vector(),
-                    #[inline(always)]
-                    |k, line| view.outline(k).holds(&line).then_some(k),
-                )
-                .0
-            },
-        )
+    #[inline(always)]
+    pub fn meets(&self, target: R::Word, psi: Direction<R>) -> R::Mask {
+        self.view.meets(Lines::of(psi.vector(), self.start), target, self.wanted)
     }
 
     /// The same for one target: a few dot products.
@@ -129,7 +90,7 @@ impl<'v, R: Real> Vantage<'v, R> {
     pub fn vp(&self, psi: Direction<R>) -> Masked<SurfacePoint<R>, R> {
         let (reached, target) = match &self.view.sights {
             Some(sights) => self.reached_by_planes(sights, psi),
-            None => self.reached_by_rays(psi),
+            None => self.view.reached_by_rays(Lines::of(psi.vector(), self.start), self.wanted),
         };
         let target = R::select_word(reached, target, R::Word::splat(0));
         if !reached.any() {
@@ -156,47 +117,15 @@ impl<'v, R: Real> Vantage<'v, R> {
     pub fn visible(&self, y: &SurfacePoint<R>, asked: R::Mask) -> R::Mask {
         let asked = asked & self.wanted;
         let Some(sights) = &self.view.sights else {
-            return self.clear_by_ray(y.position, y.target, asked);
+            return self.view.clear_by_ray(Lines::of(y.position, self.start), y.target, asked);
         };
         match &sights[..] {
-            [sight] => self.unblocked(sight, y.position, y.target, asked),
-            sights => self.unblocked_by_each(sights, *y, asked),
+            [sight] => {
+                let line = Line { toward: y.position, start: self.start };
+                self.view.unblocked(sight, &line, y.target, asked)
+            }
+            sights => self.view.unblocked_by_each(sights, Lines::of(y.position, self.start), y.target, asked),
         }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn unblocked_by_each(self, sights: &[Sight], y: SurfacePoint<R>, asked: R::Mask) -> R::Mask {
-        R::apart(
-            #[inline(always)]
-            || {
-                let mut visible = R::Mask::splat(false);
-                for (k, sight) in sights.iter().enumerate() {
-                    let here = asked & R::same(y.target, R::Word::splat(k as u32));
-                    if here.any() {
-                        visible = visible | self.unblocked(sight, y.position, y.target, here);
-                    }
-                }
-                visible
-            },
-        )
-    }
-
-    #[inline(never)]
-    fn reached_by_rays(self, psi: Direction<R>) -> (R::Mask, R::Word) {
-        let view = self.view;
-        R::apart(
-            #[inline(always)]
-            || {
-                self.each(
-                    self.wanted,
-                    R::Word::splat(0),
-                    psi.vector(),
-                    #[inline(always)]
-                    |_, line| view.reached_by_ray(&line),
-                )
-            },
-        )
     }
 
     /// The sights are disjoint but for edges and blocked by each other, so the first that is reached is the one.
@@ -211,46 +140,35 @@ impl<'v, R: Real> Vantage<'v, R> {
             let inside = self.wanted & !reached & sight.outline().holds(&line);
             if inside.any() {
                 let target = R::Word::splat(k as u32);
-                let seen = self.unblocked(sight, psi.vector(), target, inside);
+                let seen = self.view.unblocked(sight, &line, target, inside);
                 (reached, found) = (reached | seen, R::select_word(seen, target, found));
             }
         }
         (reached, found)
     }
+}
 
-    /// Whether nothing stands before the sight's target in a direction (of any length), where `asked`.
+/// Lines as numbers by themselves, to be handed to what stands apart: where a vector itself is handed over, the one of the hot
+/// path lives in memory.
+#[derive(Clone, Copy)]
+struct Lines<R> {
+    toward: [R; 3],
+    start: Option<[R; 3]>,
+}
+
+impl<R: Real> Lines<R> {
     #[inline(always)]
-    fn unblocked(&self, sight: &Sight, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
-        match sight.between() {
-            Between::Gathered(cones) => {
-                let line = Line { toward, start: self.start };
-                let mut clear = asked;
-                for cone in cones {
-                    clear = clear & !cone.holds(&line);
-                }
-                clear
-            }
-            Between::Unknown => self.clear_by_ray(toward, target, asked),
-        }
+    fn of(toward: Vector<R>, start: Start<R>) -> Self {
+        Self { toward: toward.to_array(), start: start.beside().map(Vector::to_array) }
     }
 
-    #[cold]
-    #[inline(never)]
-    fn clear_by_ray(self, toward: Vector<R>, target: R::Word, asked: R::Mask) -> R::Mask {
-        let view = self.view;
-        R::apart(
-            #[inline(always)]
-            || {
-                self.each(
-                    asked,
-                    target,
-                    toward,
-                    #[inline(always)]
-                    |k, line| view.clear(&line, k).then_some(k),
-                )
-                .0
-            },
-        )
+    #[inline(always)]
+    fn line(&self) -> Line<R> {
+        let start = match self.start {
+            Some(start) => Start::at(Vector::from(start)),
+            None => Start::origin(),
+        };
+        Line { toward: Vector::from(self.toward), start }
     }
 
     /// Asks a question about the line of each sample where `asked`.
@@ -259,25 +177,24 @@ impl<'v, R: Real> Vantage<'v, R> {
         &self,
         asked: R::Mask,
         word: R::Word,
-        toward: Vector<R>,
         mut question: impl FnMut(u32, Line<f32>) -> Option<u32>,
     ) -> (R::Mask, R::Word) {
-        let toward = toward.to_array();
+        let [u, v, w] = self.toward;
         match self.start {
             None => R::each(
                 asked,
                 word,
-                toward,
+                [u, v, w],
                 #[inline(always)]
-                |k, toward| question(k, Line { toward: Vector::from(toward), start: None }),
+                |k, toward| question(k, Line { toward: Vector::from(toward), start: Start::origin() }),
             ),
-            Some(start) => R::each(
+            Some([x, y, z]) => R::each(
                 asked,
                 word,
-                [start.x, start.y, start.z, toward[0], toward[1], toward[2]],
+                [x, y, z, u, v, w],
                 #[inline(always)]
                 |k, [x, y, z, u, v, w]| {
-                    question(k, Line { toward: Vector::new(u, v, w), start: Some(Vector::new(x, y, z)) })
+                    question(k, Line { toward: Vector::new(u, v, w), start: Start::at(Vector::new(x, y, z)) })
                 },
             ),
         }
@@ -295,6 +212,111 @@ impl View<'_> {
         }
         let before = self.wide(target).distance_along(start, toward);
         self.geometry.transmittance(&ray, before, target)
+    }
+
+    /// Whether nothing stands before the sight's target along lines, where `asked`.
+    #[inline(always)]
+    fn unblocked<R: Real>(&self, sight: &Sight, line: &Line<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+        match sight.between() {
+            Between::Gathered(cones) => {
+                let mut clear = asked;
+                for cone in cones {
+                    clear = clear & !cone.holds(line);
+                }
+                clear
+            }
+            Between::Unknown => self.clear_by_ray(Lines::of(line.toward, line.start), target, asked),
+        }
+    }
+
+    #[inline(never)]
+    fn looked_up<R: Real>(&self, target: R::Word) -> [R; ROW] {
+        R::apart(
+            #[inline(always)]
+            || match &self.sights {
+                Some(sights) => R::gather(
+                    target,
+                    #[inline(always)]
+                    |k| sights[k as usize].row(),
+                ),
+                None => R::gather(
+                    target,
+                    #[inline(always)]
+                    |k| self.wide(k).row(),
+                ),
+            },
+        )
+    }
+
+    #[inline(never)]
+    fn meets<R: Real>(&self, lines: Lines<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+        R::apart(
+            #[inline(always)]
+            || {
+                lines.each(
+                    asked,
+                    target,
+                    #[inline(always)]
+                    |k, line| self.outline(k).holds(&line).then_some(k),
+                )
+            },
+        )
+        .0
+    }
+
+    #[inline(never)]
+    fn unblocked_by_each<R: Real>(
+        &self,
+        sights: &[Sight],
+        lines: Lines<R>,
+        target: R::Word,
+        asked: R::Mask,
+    ) -> R::Mask {
+        R::apart(
+            #[inline(always)]
+            || {
+                let (line, mut visible) = (lines.line(), R::Mask::splat(false));
+                for (k, sight) in sights.iter().enumerate() {
+                    let here = asked & R::same(target, R::Word::splat(k as u32));
+                    if here.any() {
+                        visible = visible | self.unblocked(sight, &line, target, here);
+                    }
+                }
+                visible
+            },
+        )
+    }
+
+    #[inline(never)]
+    fn reached_by_rays<R: Real>(&self, lines: Lines<R>, asked: R::Mask) -> (R::Mask, R::Word) {
+        R::apart(
+            #[inline(always)]
+            || {
+                lines.each(
+                    asked,
+                    R::Word::splat(0),
+                    #[inline(always)]
+                    |_, line| self.reached_by_ray(&line),
+                )
+            },
+        )
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn clear_by_ray<R: Real>(&self, lines: Lines<R>, target: R::Word, asked: R::Mask) -> R::Mask {
+        R::apart(
+            #[inline(always)]
+            || {
+                lines.each(
+                    asked,
+                    target,
+                    #[inline(always)]
+                    |k, line| self.clear(&line, k).then_some(k),
+                )
+            },
+        )
+        .0
     }
 
     /// Casts a ray along a local line toward the plane of a target.
@@ -319,5 +341,5 @@ impl View<'_> {
 
 fn wide(line: &Line<f32>) -> (DVec3, DVec3) {
     let wide = |v: Vector<f32>| DVec3::from_array(v.to_array().map(f64::from));
-    (line.start.map_or(DVec3::ZERO, wide), wide(line.toward))
+    (line.start.beside().map_or(DVec3::ZERO, wide), wide(line.toward))
 }

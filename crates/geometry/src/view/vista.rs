@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::cone::{Cone, Line, edge_planes, orientation, sides_of};
+use super::cone::{Cone, Line, Start, edge_planes, orientation, sides_of};
 use super::polygon::clipped;
 use crate::blocking;
 use crate::frame::Frame;
@@ -81,7 +81,7 @@ impl Vista {
     /// The first surface along each direction (of any length); of several at one distance the first in the mesh.
     #[inline(always)]
     pub fn look<R: Real>(&self, toward: Vector<R>) -> Masked<Glimpse<R>, R> {
-        let line = Line { toward, start: None };
+        let line = Line { toward, start: Start::origin() };
         let (mut per_t, mut pane) = (R::zero(), R::Word::splat(0));
         for (k, candidate) in self.panes.iter().enumerate() {
             let here = Vector::splat(candidate.per_t).dot(toward);

@@ -1,5 +1,6 @@
 //! The command line from outside: exit codes, messages, what is printed and what is written.
 
+mod book;
 mod check;
 mod compare;
 mod csv;

@@ -1,0 +1,184 @@
+//! The pages do what they say: every command in them runs, and prints what stands below it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::{finished, folder, names, program};
+
+/// Commands that are not run here, by what they begin with: those that take long without optimisation, and those that measure
+/// speed. Figures are drawn by a test of their own.
+const NOT_RUN: [&str; 6] = [
+    "compare scenes/cornell-box.gltf --samples 1,4,16,64,256,1024,4096,16384,65536",
+    "compare scenes/cornell-box.gltf --samples 1024 --replicates 4000",
+    "compare scenes/cornell-box.gltf --grid 8,8",
+    "render scenes/cornell-box.gltf --spp 256",
+    "reproduce --all",
+    "reproduce lecture --out out",
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// README.md and all pages of the book.
+fn pages() -> Vec<PathBuf> {
+    let mut pages = vec![root().join("README.md")];
+    for folder in ["docs", "docs/reproductions"] {
+        let entries = fs::read_dir(root().join(folder)).expect("a folder");
+        let paths = entries.map(|entry| entry.expect("an entry").path());
+        pages.extend(paths.filter(|path| path.extension().is_some_and(|extension| extension == "md")));
+    }
+    pages
+}
+
+/// The fenced blocks of a page: language and text.
+fn blocks(page: &str) -> Vec<(&str, String)> {
+    let mut blocks: Vec<(&str, String)> = Vec::new();
+    let mut open = false;
+    for line in page.lines() {
+        match line.trim_start().strip_prefix("```") {
+            Some(_) if open => open = false,
+            Some(language) => {
+                blocks.push((language, String::new()));
+                open = true;
+            }
+            None if open => blocks.last_mut().expect("an open block").1.extend([line, "\n"]),
+            None => (),
+        }
+    }
+    blocks
+}
+
+/// The words after `twoforms` in each command of a block that runs it.
+fn commands(block: &str) -> Vec<String> {
+    let whole = block.replace("\\\n", " ");
+    let words = whole.lines().filter_map(|line| {
+        let line = line.trim();
+        line.strip_prefix("twoforms ").or_else(|| line.strip_prefix("cargo run --release -- "))
+    });
+    let words = words.map(|words| words.split([';', '|', '#']).next().unwrap_or_default());
+    words.map(|words| words.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
+}
+
+/// A folder like the repository's, with its scenes and reproductions and no results.
+fn repository() -> PathBuf {
+    let copy = folder("book");
+    for part in ["scenes", "docs/reproductions", "out"] {
+        fs::create_dir_all(copy.join(part)).expect("a folder");
+    }
+    for part in ["scenes", "docs/reproductions"] {
+        for entry in fs::read_dir(root().join(part)).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            fs::copy(&path, copy.join(part).join(path.file_name().expect("a name"))).expect("a copy");
+        }
+    }
+    copy
+}
+
+fn printed(command: &str, at: &Path) -> String {
+    let words = command.split(' ').map(|word| word.trim_matches('\''));
+    let output = program().args(words).current_dir(at).output().expect("the program starts");
+    let run = finished(output);
+    assert_eq!(run.code, Some(0), "twoforms {command}: {}", run.err);
+    run.out
+}
+
+/// A line without what its width moves, and without a time at its end.
+fn plain(line: &str) -> String {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let timed = matches!(words.last(), Some(&("ns" | "µs" | "ms" | "s")));
+    words[..words.len() - if timed { 2 } else { 0 }].join(" ")
+}
+
+/// The lines of a text block that were not printed. `…` stands for lines, or for the rest of one, that are left out.
+fn unprinted<'a>(text: &'a str, printed: &BTreeSet<String>) -> Vec<&'a str> {
+    let there = |line: &&str| match plain(line).strip_suffix('…') {
+        Some(begin) => printed.iter().any(|line| line.starts_with(begin.trim_end())),
+        None => printed.contains(&plain(line)) || line.contains("──"),
+    };
+    text.lines().filter(|line| !there(line)).collect()
+}
+
+#[test]
+fn every_command_in_the_pages_runs_and_prints_what_stands_below_it() {
+    let at = repository();
+    let (mut known, mut wrong) = (BTreeMap::new(), Vec::new());
+    for page in pages() {
+        let text = fs::read_to_string(&page).expect("a page");
+        let mut lines = BTreeSet::new();
+        for (language, block) in blocks(&text) {
+            match language {
+                "toml" => written(&block, &at),
+                "sh" => {
+                    let run = commands(&block).into_iter().filter(|command| !not_run(command));
+                    let outputs = run.map(|command| {
+                        known.entry(command).or_insert_with_key(|command| lines_of(command, &at)).clone()
+                    });
+                    lines = outputs.flatten().collect();
+                }
+                // The README's table is held to the program by `.ci/run`.
+                "text" if !lines.is_empty() && !page.ends_with("../../README.md") => {
+                    let missing = unprinted(&block, &lines).into_iter();
+                    wrong.extend(missing.map(|line| format!("{}: {line}", page.display())));
+                }
+                _ => (),
+            }
+        }
+    }
+    assert!(known.len() > 20, "{} commands", known.len());
+    assert!(wrong.is_empty(), "lines that are not printed:\n{}", wrong.join("\n"));
+}
+
+fn not_run(command: &str) -> bool {
+    NOT_RUN.iter().any(|begin| command.starts_with(begin))
+}
+
+fn lines_of(command: &str, at: &Path) -> Vec<String> {
+    printed(command, at).lines().map(plain).collect()
+}
+
+/// Writes a file of a page that begins with its name, `# experiment.toml`.
+fn written(block: &str, at: &Path) {
+    let name = block.lines().next().and_then(|line| line.strip_prefix("# ")).filter(|name| ends(name, "toml"));
+    if let Some(name) = name {
+        fs::write(at.join(name), block).expect("a file");
+    }
+}
+
+/// The index of the lecture gives numbers in code type in its last column, and figures: the program prints and draws them.
+#[test]
+fn the_lectures_numbers_are_printed_and_its_figures_drawn() {
+    let (page, at) = (fs::read_to_string(root().join("docs/lecture.md")).expect("a page"), folder("lecture"));
+    let output = printed("reproduce lecture --quiet --out .", &at);
+    let known: BTreeSet<&str> = output.split([' ', '\n', ',']).collect();
+    let rows = page.lines().filter(|line| line.starts_with('|'));
+    let last = rows.filter_map(|row| row.trim_end_matches('|').rsplit(" | ").next());
+    let numbers: Vec<&str> = last.flat_map(|cell| cell.split('`').skip(1).step_by(2)).collect();
+    let unknown: Vec<&&str> = numbers.iter().filter(|number| !known.contains(**number)).collect();
+    assert!(numbers.len() > 40 && unknown.is_empty(), "not printed: {unknown:?}");
+    are_drawn(&at, 3);
+}
+
+#[test]
+fn the_figures_of_reproductions_are_drawn_by_the_program() {
+    let at = folder("figures");
+    for name in ["square-crossings", "rates"] {
+        printed(&format!("reproduce {name} --quiet --out ."), &at);
+    }
+    are_drawn(&at, 9);
+}
+
+fn ends(name: &str, extension: &str) -> bool {
+    Path::new(name).extension().is_some_and(|found| found == extension)
+}
+
+/// Checks that the figures drawn into a folder are those that the pages show.
+fn are_drawn(folder: &Path, count: usize) {
+    let drawn: Vec<String> = names(folder).into_iter().filter(|name| ends(name, "svg")).collect();
+    assert_eq!(drawn.len(), count, "{drawn:?}");
+    for name in drawn {
+        let kept = fs::read(root().join("docs/figures").join(&name)).ok();
+        assert!(kept == fs::read(folder.join(&name)).ok(), "draw docs/figures/{name} anew: reproduce … --out");
+    }
+}

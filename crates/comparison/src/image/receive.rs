@@ -25,27 +25,27 @@ impl Receive<'_> {
     /// one light sample after the other.
     pub(super) fn all(&self, chunk: &mut Chunk, batch: &mut Batch) {
         debug_assert!(!self.estimator.is_quotient(), "quotients are of one x each");
-        let mut rows = Vec::with_capacity(ROWS);
+        let (mut rows, mut open) = (Vec::with_capacity(ROWS), [[0.0; ROW]; 3]);
         for from in chunk.rows_that_meet(self.pane).collect::<Vec<_>>() {
             for index in 0..self.light.each {
                 rows.push(Row { from, index });
                 if rows.len() == ROWS {
-                    self.evaluate(chunk, &rows, batch);
+                    self.evaluate(chunk, &rows, batch, &mut open);
                     rows.clear();
                 }
             }
         }
-        self.evaluate(chunk, &rows, batch);
+        self.evaluate(chunk, &rows, batch, &mut open);
     }
 
     /// Evaluates some rows, and adds them up.
-    fn evaluate(&self, chunk: &mut Chunk, rows: &[Row], batch: &mut Batch) {
-        let (instructions, share) = (self.light.instructions, 1.0 / f64::from(self.light.each));
+    fn evaluate(&self, chunk: &mut Chunk, rows: &[Row], batch: &mut Batch, open: &mut Sums) {
+        let Samples { instructions, each, .. } = self.light;
         batch.length = rows.len() * ROW;
         instructions.run(LookFrom { chunk, pane: self.pane, along: self.along, rows, batch });
         self.light.fill(chunk.streams(), rows, &mut batch.numbers);
         self.estimator.evaluate(instructions, batch);
-        instructions.run(Add { chunk, rows, batch, share });
+        instructions.run(Add { chunk, rows, batch, each, open });
     }
 }
 
@@ -83,12 +83,18 @@ impl Kernel for LookFrom<'_> {
     }
 }
 
-/// Adds what rows of light samples are worth to the values of their camera samples, each by its share.
+/// Sums over light samples of the camera samples in a row, RGB.
+type Sums = [[f64; ROW]; 3];
+
+/// Adds up rows of light samples; where a row of camera samples has all of its own, their mean joins the values.
 struct Add<'c> {
     chunk: &'c mut Chunk,
     rows: &'c [Row],
     batch: &'c Batch,
-    share: f64,
+    /// Light samples of each camera sample.
+    each: u32,
+    /// The sums of the row of camera samples that is not complete.
+    open: &'c mut Sums,
 }
 
 impl Kernel for Add<'_> {
@@ -96,18 +102,23 @@ impl Kernel for Add<'_> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Self { chunk, rows, batch, share } = self;
-        let share = R::Wide::splat(share);
+        let Self { chunk, rows, batch, each, open } = self;
         let mut offset = 0;
         for same in rows.chunk_by(|one, next| one.from == next.from) {
             let (from, end) = (same[0].from, offset + same.len() * ROW);
-            for (value, worth) in chunk.value.iter_mut().zip(&batch.worth) {
+            let (begins, ends) = (same[0].index == 0, same[same.len() - 1].index + 1 == each);
+            for c in 0..3 {
                 for k in (0..ROW).step_by(EIGHT) {
-                    let mut sum = R::Wide::load(&value[from + k..]);
+                    let mut sum = if begins { R::Wide::splat(0.0) } else { R::Wide::load(&open[c][k..]) };
                     for row in (offset..end).step_by(ROW) {
-                        sum = sum + R::Wide::widen(&worth[row + k..]) * share;
+                        sum = sum + R::Wide::widen(&batch.worth[c][row + k..]);
                     }
-                    sum.store(&mut value[from + k..]);
+                    if ends {
+                        let value = &mut chunk.value[c][from + k..];
+                        (R::Wide::load(value) + sum * R::Wide::splat(1.0 / f64::from(each))).store(value);
+                    } else {
+                        sum.store(&mut open[c][k..]);
+                    }
                 }
             }
             for k in (0..ROW).step_by(R::LANES) {

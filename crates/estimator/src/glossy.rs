@@ -103,8 +103,9 @@ impl MetallicRoughness {
         share * mirrored + (number(1.0) - share) * (psi[2] * number(1.0 / PI))
     }
 
-    /// A: which part of the directions is mirrored at visible normals: that of the specular part in what is reflected, by
-    /// luminance, as it is at θ_o and as it is on average, whichever is more by as much as Fresnel's reflection rises.
+    /// A: the share of directions that are mirrored at visible normals: that of what is specular in all that is reflected, by
+    /// luminance, where the specular part rises from head-on with Fresnel at θ_o, and by at least the mean of that rise, so that
+    /// no highlight is left out.
     #[inline(always)]
     pub fn share<N: Number>(&self, theta: [N; 3]) -> N {
         let number = N::number;

@@ -1,9 +1,10 @@
 //! The pages do what they say: every command in them runs, and prints what stands below it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
+use crate::page::{self, blocks, commands};
 use crate::support::{finished, folder, names, program};
 
 /// Commands that are not run here, by what they begin with: those that take long without optimisation, and those that measure
@@ -32,35 +33,6 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// The fenced blocks of a page: language and text.
-fn blocks(page: &str) -> Vec<(&str, String)> {
-    let mut blocks: Vec<(&str, String)> = Vec::new();
-    let mut open = false;
-    for line in page.lines() {
-        match line.trim_start().strip_prefix("```") {
-            Some(_) if open => open = false,
-            Some(language) => {
-                blocks.push((language, String::new()));
-                open = true;
-            }
-            None if open => blocks.last_mut().expect("an open block").1.extend([line, "\n"]),
-            None => (),
-        }
-    }
-    blocks
-}
-
-/// The words after `twoforms` in each command of a block that runs it.
-fn commands(block: &str) -> Vec<String> {
-    let whole = block.replace("\\\n", " ");
-    let words = whole.lines().filter_map(|line| {
-        let line = line.trim();
-        line.strip_prefix("twoforms ").or_else(|| line.strip_prefix("cargo run --release -- "))
-    });
-    let words = words.map(|words| words.split([';', '|', '#']).next().unwrap_or_default());
-    words.map(|words| words.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
-}
-
 /// A folder like the repository's, with its scenes and reproductions and no results.
 fn repository() -> PathBuf {
     let copy = folder("book");
@@ -84,50 +56,40 @@ fn printed(command: &str, at: &Path) -> String {
     run.out
 }
 
-/// A line without what its width moves, and without a time at its end.
-fn plain(line: &str) -> String {
-    let words: Vec<&str> = line.split_whitespace().collect();
-    let timed = matches!(words.last(), Some(&("ns" | "µs" | "ms" | "s")));
-    words[..words.len() - if timed { 2 } else { 0 }].join(" ")
-}
-
-/// The lines of a text block that were not printed. `…` stands for lines, or for the rest of one, that are left out.
-fn unprinted<'a>(text: &'a str, printed: &BTreeSet<String>) -> Vec<&'a str> {
-    let there = |line: &&str| match plain(line).strip_suffix('…') {
-        Some(begin) => printed.iter().any(|line| line.starts_with(begin.trim_end())),
-        None => printed.contains(&plain(line)) || line.contains("──"),
-    };
-    text.lines().filter(|line| !there(line)).collect()
-}
-
+/// With `TWOFORMS_WRITE_BOOK` set, lines that differ in numbers alone are written into the pages instead.
 #[test]
 fn every_command_in_the_pages_runs_and_prints_what_stands_below_it() {
-    let at = repository();
+    let (at, write) = (repository(), env::var_os("TWOFORMS_WRITE_BOOK").is_some());
     let (mut known, mut wrong) = (BTreeMap::new(), Vec::new());
     for page in pages() {
         let text = fs::read_to_string(&page).expect("a page");
-        let mut lines = BTreeSet::new();
+        let (mut lines, mut mended) = (Vec::new(), text.clone());
         for (language, block) in blocks(&text) {
             match language {
                 "toml" => written(&block, &at),
                 "sh" => {
                     let run = commands(&block).into_iter().filter(|command| !not_run(command));
-                    let outputs = run.map(|command| {
-                        known.entry(command).or_insert_with_key(|command| lines_of(command, &at)).clone()
-                    });
+                    let outputs =
+                        run.map(|command| known.entry(command).or_insert_with_key(|c| lines_of(c, &at)).clone());
                     lines = outputs.flatten().collect();
                 }
                 // The README's table is held to the program by `.ci/run`.
                 "text" if !lines.is_empty() && !page.ends_with("../../README.md") => {
-                    let missing = unprinted(&block, &lines).into_iter();
-                    wrong.extend(missing.map(|line| format!("{}: {line}", page.display())));
+                    let missing = page::unprinted(&block, &lines);
+                    wrong.extend(missing.iter().map(|line| format!("{}: {line}", page.display())));
+                    if !missing.is_empty() {
+                        mended = mended.replacen(&block, &page::mended(&block, &lines), 1);
+                    }
                 }
                 _ => (),
             }
         }
+        if write && mended != text {
+            fs::write(&page, mended).expect("a page");
+        }
     }
     assert!(known.len() > 20, "{} commands", known.len());
-    assert!(wrong.is_empty(), "lines that are not printed:\n{}", wrong.join("\n"));
+    assert!(write || wrong.is_empty(), "lines that are not printed:\n{}", wrong.join("\n"));
 }
 
 fn not_run(command: &str) -> bool {
@@ -135,7 +97,7 @@ fn not_run(command: &str) -> bool {
 }
 
 fn lines_of(command: &str, at: &Path) -> Vec<String> {
-    printed(command, at).lines().map(plain).collect()
+    printed(command, at).lines().map(str::to_owned).collect()
 }
 
 /// Writes a file of a page that begins with its name, `# experiment.toml`.

@@ -9,6 +9,7 @@ mod files;
 mod help;
 mod inspect;
 mod json;
+mod page;
 mod receivers;
 mod refusals;
 mod render;

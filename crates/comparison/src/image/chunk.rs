@@ -108,8 +108,7 @@ impl Chunk {
 
     /// Where the rows begin in which some sample meets a pane.
     pub(super) fn rows_that_meet(&self, pane: u32) -> impl Iterator<Item = usize> + use<'_> {
-        let meets =
-            move |&from: &usize| self.pane[from..from + ROW].iter().fold(false, |some, &met| some | (met == pane));
+        let meets = move |&from: &usize| self.pane[from..from + ROW].contains(&pane);
         (0..self.len).step_by(ROW).filter(meets)
     }
 

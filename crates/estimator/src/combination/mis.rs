@@ -30,6 +30,10 @@ impl Primary for Mis<'_> {
         self.view
     }
 
+    fn query(&self) -> &Query<'_> {
+        self.query
+    }
+
     fn pairs(&self) -> usize {
         self.team.iter().map(|(_, n)| *n as usize).sum()
     }

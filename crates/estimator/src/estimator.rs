@@ -30,6 +30,9 @@ pub trait Primary: Sync {
     /// What x sees.
     fn view(&self) -> &View<'_>;
 
+    /// What is asked of the light.
+    fn query(&self) -> &Query<'_>;
+
     /// Pairs of random numbers that a sample takes.
     fn pairs(&self) -> usize {
         1
@@ -75,6 +78,7 @@ impl<P: Primary> Estimator for P {
     }
 
     fn evaluate(&self, instructions: Instructions, batch: &mut Batch) {
+        let instructions = if self.query().lights().vary() { Instructions::SCALAR } else { instructions };
         instructions.run(Evaluate { primary: self, batch });
     }
 
@@ -129,6 +133,10 @@ impl<'a, F: Formulation, D: Density<F::Measure>> Single<'a, F, D> {
 impl<F: Formulation, D: Density<F::Measure>> Primary for Single<'_, F, D> {
     fn view(&self) -> &View<'_> {
         self.view
+    }
+
+    fn query(&self) -> &Query<'_> {
+        self.query
     }
 
     #[inline(always)]

@@ -95,7 +95,14 @@ impl<'l> Query<'l> {
     /// where there is no y.
     #[inline(always)]
     pub fn l_e<R: Real>(&self, from: &Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
-        if self.lights.vary() { looked_up(self.lights, *from, y) } else { self.mean_l_e(y) }
+        if self.varies::<R>() { looked_up(self.lights, *from, y) } else { self.mean_l_e(y) }
+    }
+
+    /// Whether L_e must be looked up at every point. What is looked up one by one is computed one by one: where lights vary,
+    /// estimators run in scalar numbers, so that lanes need not ask.
+    #[inline(always)]
+    pub(crate) fn varies<R: Real>(&self) -> bool {
+        R::LANES == 1 && self.lights.vary()
     }
 
     /// The mean of L_e over the target that y lies on; black where there is no y.

@@ -75,7 +75,7 @@ impl Shadow<'_> {
         let (sample, facing) = self.draw(from, drawn).parts();
         let mean = self.mean(from, &sample, facing);
         let visible = facing & from.visible(&sample.at, facing);
-        let unhidden = if self.query.lights().vary() {
+        let unhidden = if self.query.varies::<R>() {
             self.worth(from, &sample, facing, self.query.l_e(from, Masked::new(sample.at, visible)))
         } else {
             mean
@@ -89,6 +89,10 @@ impl Primary for Ratio<'_> {
 
     fn view(&self) -> &View<'_> {
         self.shadow.view
+    }
+
+    fn query(&self) -> &Query<'_> {
+        self.shadow.query
     }
 
     /// V f/p.
@@ -117,11 +121,15 @@ impl Primary for ControlVariate<'_> {
         self.shadow.view
     }
 
+    fn query(&self) -> &Query<'_> {
+        self.shadow.query
+    }
+
     #[inline(always)]
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R> {
         let Shade { mean, unhidden, visible, asked } = self.shadow.sample(from, drawn);
         let known = Rgb::splat(self.shadow.unoccluded.map(|u| u as f32)).or_black(from.wanted());
-        let hidden = if self.shadow.query.lights().vary() {
+        let hidden = if self.shadow.query.varies::<R>() {
             mean + unhidden.or_black(visible) * R::splat(-1.0)
         } else {
             mean.or_black(asked & !visible)

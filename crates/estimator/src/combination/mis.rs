@@ -32,6 +32,10 @@ impl Primary for Mis<'_> {
         self.view
     }
 
+    fn query(&self) -> &Query<'_> {
+        self.query
+    }
+
     fn pairs(&self) -> usize {
         self.pairs
     }

@@ -69,6 +69,10 @@ impl Primary for Mixture<'_> {
         self.view
     }
 
+    fn query(&self) -> &Query<'_> {
+        self.query
+    }
+
     #[inline(always)]
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R> {
         let xi = drawn.xi::<R>(0);

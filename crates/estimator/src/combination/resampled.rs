@@ -63,6 +63,10 @@ impl Primary for Resampled<'_> {
         self.view
     }
 
+    fn query(&self) -> &Query<'_> {
+        self.query
+    }
+
     fn pairs(&self) -> usize {
         self.pairs
     }

@@ -114,7 +114,7 @@ impl Spread for ByLuminance<'_> {
     /// Y times sides.
     #[inline(always)]
     fn per_area<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> R {
-        if self.lights.are_textured() {
+        if R::LANES == 1 && self.lights.are_textured() {
             return self.values(*from, *y);
         }
         let [value] = R::gather(

@@ -119,28 +119,32 @@ fn the_lectures_numbers_are_printed_and_its_figures_drawn() {
     let numbers: Vec<&str> = last.flat_map(|cell| cell.split('`').skip(1).step_by(2)).collect();
     let unknown: Vec<&&str> = numbers.iter().filter(|number| !known.contains(**number)).collect();
     assert!(numbers.len() > 40 && unknown.is_empty(), "not printed: {unknown:?}");
-    are_drawn(&at, 3);
+    are_drawn("lecture", &at, 3);
 }
 
 #[test]
 fn the_figures_of_reproductions_are_drawn_by_the_program() {
-    let at = folder("figures");
-    for name in ["square-crossings", "rates"] {
+    for (name, count) in [("square-crossings", 2), ("rates", 2)] {
+        let at = folder(name);
         printed(&format!("reproduce {name} --quiet --out ."), &at);
+        are_drawn(name, &at, count);
     }
-    are_drawn(&at, 9);
+}
+
+/// Checks that the figures of a reproduction that pages show are those that were drawn into a folder.
+fn are_drawn(reproduction: &str, folder: &Path, count: usize) {
+    let mut shown = names(&root().join("docs/figures"));
+    shown.retain(|name| name.starts_with(&format!("{reproduction}-")));
+    assert_eq!(shown.len(), count, "{shown:?}");
+    for name in shown {
+        let kept = fs::read(root().join("docs/figures").join(&name)).ok();
+        assert!(
+            kept == fs::read(folder.join(&name)).ok(),
+            "draw docs/figures/{name} anew: reproduce {reproduction} --out"
+        );
+    }
 }
 
 fn ends(name: &str, extension: &str) -> bool {
     Path::new(name).extension().is_some_and(|found| found == extension)
-}
-
-/// Checks that the figures drawn into a folder are those that the pages show.
-fn are_drawn(folder: &Path, count: usize) {
-    let drawn: Vec<String> = names(folder).into_iter().filter(|name| ends(name, "svg")).collect();
-    assert_eq!(drawn.len(), count, "{drawn:?}");
-    for name in drawn {
-        let kept = fs::read(root().join("docs/figures").join(&name)).ok();
-        assert!(kept == fs::read(folder.join(&name)).ok(), "draw docs/figures/{name} anew: reproduce … --out");
-    }
 }

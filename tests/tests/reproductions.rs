@@ -86,3 +86,23 @@ fn the_lecture_prints_its_numbers() {
     close(exact("variance", "p = 1/4"), 64.0 / 3.0);
     close(exact("variance", "p = (x + 2)/16"), 64.0 * 3.0_f64.ln() - 64.0);
 }
+
+/// What lies in the folders is what the program carries.
+#[test]
+fn the_program_carries_every_reproduction_and_scene() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let files = |folder: &str, extension: &str| {
+        let entries = std::fs::read_dir(root.join(folder)).expect("a folder").map(|entry| entry.expect("an entry"));
+        let names = entries.map(|entry| entry.file_name().into_string().expect("UTF-8"));
+        let mut names: Vec<String> = names.filter(|name| name.ends_with(extension)).collect();
+        names.sort();
+        names
+    };
+    let sorted = |mut names: Vec<String>| {
+        names.sort();
+        names
+    };
+    let reproductions = names().map(|name| format!("{name}.toml")).collect();
+    assert_eq!(sorted(reproductions), files("docs/reproductions", ".toml"));
+    assert_eq!(sorted(catalogue::scenes().map(|(name, _)| name.to_owned()).collect()), files("scenes", ".gltf"));
+}

@@ -32,6 +32,7 @@ const SCENES: &[(&str, &[u8])] = files!(
     "square-light.gltf",
     "tiny-far-light.gltf",
     "two-lights.gltf",
+    "four-colours.gltf",
 );
 
 /// The text of each reproduction, by name.

@@ -1,6 +1,6 @@
 //! Light samples per second in an image: the rendering alone, without reading the scene and without writing a file.
 //!
-//! `cargo run --release -p twoforms-comparison --example render_rate -- SCENE STRATEGY WIDTH HEIGHT SPP LIGHT_SAMPLES
+//! `cargo run --release -p twoforms-comparison --example render_rate -- SCENE STRATEGY[+SAMPLER] WIDTH HEIGHT SPP LIGHT_SAMPLES
 //! [--threads N] [--repeat K]` prints one JSON line. The view is that of the scene's first camera. Samples are counted as
 //! asked for: WIDTH × HEIGHT × SPP camera samples, LIGHT_SAMPLES for each, whatever they meet.
 
@@ -15,7 +15,8 @@ use twoforms_scene::Scene;
 
 use support::{arguments, seconds, whole};
 
-const USAGE: &str = "usage: render_rate SCENE STRATEGY WIDTH HEIGHT SPP LIGHT_SAMPLES [--threads N] [--repeat K]";
+const USAGE: &str =
+    "usage: render_rate SCENE STRATEGY[+SAMPLER] WIDTH HEIGHT SPP LIGHT_SAMPLES [--threads N] [--repeat K]";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (words, [threads, repeat]) = arguments::<6, 2>(USAGE, ["--threads", "--repeat"])?;
@@ -27,12 +28,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         let rendering = Rendering { seed: round, ..rendering.clone() };
         rendering.run(&world, camera, &|_| ()).map(|pixels| drop(std::hint::black_box(pixels)))
     })?;
-    let Rendering { strategy, width, height, spp, light_samples, .. } = rendering;
+    let Rendering { strategy, sampler, width, height, spp, light_samples, .. } = rendering;
     let camera_samples = u64::from(width) * u64::from(height) * u64::from(spp);
     let all = camera_samples * u64::from(light_samples);
     let rate = |seconds: f64| all as f64 / seconds / 1e6;
     println!(
-        r#"{{"strategy":"{strategy}","width":{width},"height":{height},"spp":{spp},"light_samples_each":{light_samples},"threads":{threads},"camera_samples":{camera_samples},"light_samples":{all},"cpu_seconds":{:.4},"best_cpu_seconds":{:.4},"million_light_samples_per_cpu_second":{:.2},"best":{:.2}}}"#,
+        r#"{{"strategy":"{strategy}","sampler":"{sampler}","width":{width},"height":{height},"spp":{spp},"light_samples_each":{light_samples},"threads":{threads},"camera_samples":{camera_samples},"light_samples":{all},"cpu_seconds":{:.4},"best_cpu_seconds":{:.4},"million_light_samples_per_cpu_second":{:.2},"best":{:.2}}}"#,
         seconds.median,
         seconds.best,
         rate(seconds.median),
@@ -44,9 +45,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// The whole image, as `twoforms render` makes it.
 fn rendering([_, strategy, width, height, spp, light_samples]: &[String; 6]) -> Result<Rendering, Box<dyn Error>> {
     let (width, height) = (whole(width, "WIDTH")?, whole(height, "HEIGHT")?);
+    let (strategy, sampler) = strategy.split_once('+').unwrap_or((strategy, Sampler::Independent.name()));
     Ok(Rendering {
         strategy: strategy.parse()?,
-        sampler: Sampler::Independent,
+        sampler: sampler.parse()?,
         width,
         height,
         crop: Crop { x0: 0, x1: width, y0: 0, y1: height },

@@ -160,7 +160,9 @@ impl<'a> Beam<'a> {
         }
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
             let seen = self.met(chunk, k, pane);
-            let (value, rays) = self.painter.receive(&seen, query, chunk.stream(k)).map_err(|source| (k, source))?;
+            // What is asked knows where the eye is by the frame of the point.
+            let Some(query) = self.painter.surface(&seen).query else { continue };
+            let (value, rays) = self.painter.receive(&seen, &query, chunk.stream(k)).map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
         Ok(())

@@ -62,6 +62,7 @@ fn by_channel(case: &Case, row: &Row) -> Vec<Outcome> {
         let of_mean = row.variance_of_mean.expect("several replicates");
         let means = [found.luminance, luminance(known)];
         let cited = case.variance(strategy).map(|variance| luminance(variance) / row.samples as f64);
+        let cited = cited.or(row.variance_exact.filter(|_| independent));
         return vec![outcome(&format!("{name} luminance"), row, means, of_mean, cited.unwrap_or(of_mean).max(of_mean))];
     };
     let of_channel = |c: usize| {

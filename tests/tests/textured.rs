@@ -11,7 +11,7 @@ use twoforms_estimator::density::{LuminanceOnLights, Ready};
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::selection::Selection;
-use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::strategy::{Strategy, Weighting};
 use twoforms_estimator::technique::Kind;
 use twoforms_geometry::view::{Effort, View};
 use twoforms_tests::built::{ceiling, places, world};
@@ -114,7 +114,10 @@ fn outcomes(world: &World, place: &Place, strategy: Strategy) -> Vec<Outcome> {
     let irradiance = exact.light.irradiance.expect("an irradiance");
     let variance = exact.light.strategies[0].variance_of_one.expect("a variance");
     assert!(irradiance.error_bound < 1e-9 * irradiance.luminance, "{irradiance:?}");
-    assert!(variance.error_bound < 1e-6 * variance.luminance, "{strategy}: {variance:?}");
+    // Weights that jump are integrated to a thousandth.
+    let jumps = matches!(strategy, Strategy::Mis(Weighting::Cutoff | Weighting::Maximum, _));
+    let bound = if jumps { 1e-2 } else { 1e-6 };
+    assert!(variance.error_bound < bound * variance.luminance, "{strategy}: {variance:?}");
     let name = |what: &str| format!("{} {strategy} {what}", place.name);
     vec![
         outcome(&name("mean"), mean, irradiance.rgb[0], (variance.rgb[0] / n).sqrt()),
@@ -180,7 +183,7 @@ fn image(world: &World) -> Vec<Pixel> {
         light_samples: 4,
         filter: PixelFilter::Point,
         cull: false,
-        quantity: Shown::Radiance,
+        quantity: Shown::Diffuse,
         seed: SEED,
     };
     rendering.run(world, &world.scene.cameras[0], &|_| ()).expect("finite samples")

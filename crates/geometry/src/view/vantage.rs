@@ -322,8 +322,10 @@ impl View<'_> {
     /// Casts a ray along a local line toward the plane of a target.
     fn clear(&self, line: &Line<f32>, target: u32) -> bool {
         let (start, toward) = wide(line);
-        let before = self.wide(target).distance_along(start, toward);
-        self.geometry.visible(&self.ray(start, toward), before, target)
+        let (before, ray) = (self.wide(target).distance_along(start, toward), self.ray(start, toward));
+        // What is cut out is not there: no technique comes upon it.
+        let there = !self.geometry.is_veiled() || !self.geometry.is_hole(target, ray.at(before));
+        there && self.geometry.visible(&ray, before, target)
     }
 
     /// The target that a local line reaches first of all surfaces, on a side that emits.

@@ -181,8 +181,10 @@ impl Lighting {
             [ratio, ratio * (da / a + db / b)]
         });
         let exact = exact.filter(|_| sampler == Sampler::Independent);
-        let found = [of, to].map(|strategy| self.variance(at, strategy, sampler).map(|finding| finding.measured));
-        let [Ok(Some(a)), Ok(Some(b))] = found else { return Ok(Finding { exact, ..Finding::default() }) };
+        let measured = |strategy| self.variance(at, strategy, sampler).map(|finding| finding.measured);
+        let (Some(a), Some(b)) = (measured(of)?, measured(to)?) else {
+            return Ok(Finding { exact, ..Finding::default() });
+        };
         let half = |m: &Measured| 0.5 * (m.interval[1] / m.interval[0]).ln();
         let (value, half) = (a.value / b.value, half(&a).hypot(half(&b)));
         let measured = Measured { value, interval: [value * (-half).exp(), value * half.exp()] };

@@ -68,7 +68,7 @@ pub struct Experiment {
     pub albedo: Option<f32>,
     /// Strategies to compare.
     pub strategies: Option<Vec<Spanned<String>>>,
-    /// What moves, as PARAM=FROM:TO[:log]:STEPS.
+    /// What moves, as `PARAM=FROM:TO[:log]:STEPS`.
     pub sweep: Option<Spanned<String>>,
     /// Nested samples of light that was reflected once: [outer, inner].
     pub nested: Option<[u32; 2]>,
@@ -182,15 +182,15 @@ pub struct Parameter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quantity {
-    /// E[w]: expected value of the variable, the integral.
+    /// `E[w]`: expected value of the variable, the integral.
     Mean,
-    /// σ² = E[(w − E[w])²] of one sample. In a scene, of a strategy at a receiver.
+    /// `σ² = E[(w − E[w])²]` of one sample. In a scene, of a strategy at a receiver.
     Variance,
     /// σ.
     Deviation,
-    /// E[w²].
+    /// `E[w²]`.
     SecondMoment,
-    /// E[w²] − E[w]²: the variance by the identity.
+    /// `E[w²] − E[w]²`: the variance by the identity.
     Identity,
     /// σ²/N of the mean of N samples.
     VarianceOfMean,
@@ -202,7 +202,7 @@ pub enum Quantity {
     Drawn,
     /// The mean of the primary estimates of given points.
     RunningMean,
-    /// Share of N-sample means farther than σ_N/√δ from E[w]; δ bounds it.
+    /// Share of N-sample means farther than σ_N/√δ from `E[w]`; δ bounds it.
     Outside,
     /// Exponent of N in the root mean square error of means.
     ErrorRate,

@@ -186,6 +186,9 @@ impl Toolkit<'_> {
 }
 
 /// The rule and Monte Carlo over 1, 2, 3, … axes.
+///
+/// # Errors
+/// What is missing, or why there is no such comparison.
 pub fn versus(growing: &[Subject], row: &Expected) -> Result<Vec<Versus>, String> {
     let (rule, budget) = (rule(row)?, row.nodes.ok_or("it needs nodes = the most evaluations")?);
     let one = |subject: &Subject| {
@@ -254,6 +257,9 @@ pub fn z(level: f64) -> f64 {
 }
 
 /// The variance of values with its interval.
+///
+/// # Errors
+/// Why the values do not say.
 pub fn spread(values: &[f64], level: f64) -> Result<Measured, String> {
     let measured = LogVariance::from_replicates(values).map_err(|reason| reason.to_string())?;
     let half = student_quantile(z(level), measured.freedom()) * measured.standard_error();

@@ -228,6 +228,7 @@ pub struct CompareArgs {
 
 /// `reproduce`.
 #[derive(Debug, ClapArgs)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub struct ReproduceArgs {
     /// Reproductions by name, or files of experiments (.toml) [default: list them]
     #[arg(value_name = "NAME|FILE.toml")]

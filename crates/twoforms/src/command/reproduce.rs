@@ -69,14 +69,12 @@ fn texts(args: &ReproduceArgs) -> Result<Vec<(String, Text)>> {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             return Ok((name, experiment::text(path, &args.set)?));
         }
-        match known.iter().find(|(name, _)| name == what) {
-            Some((name, text)) => Ok(((*name).to_owned(), of(name, text).with(&args.set)?)),
-            None => {
-                let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-                let near = nearest(what, &names).unwrap_or_default();
-                bail!("there is no reproduction \"{what}\"; did you mean \"{near}\"? (a file's name ends in .toml)")
-            }
+        if let Some((name, text)) = known.iter().find(|(name, _)| name == what) {
+            return Ok(((*name).to_owned(), of(name, text).with(&args.set)?));
         }
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        let near = nearest(what, &names).unwrap_or_default();
+        bail!("there is no reproduction \"{what}\"; did you mean \"{near}\"? (a file's name ends in .toml)")
     };
     args.what.iter().map(one).collect()
 }

@@ -131,7 +131,8 @@ fn samples_vary_about_exact_light_as_it_says() {
     assert_eq!(world.scene.targets.len(), 3);
     let mut found = Vec::new();
     for place in places(&world) {
-        for strategy in with_formula() {
+        // What `control-variate` knows is the light of the mean, and no formula is known for what is left.
+        for strategy in with_formula().into_iter().filter(|&strategy| strategy != Strategy::ControlVariate) {
             found.extend(outcomes(&world, &place, strategy));
         }
     }

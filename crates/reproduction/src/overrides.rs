@@ -50,7 +50,7 @@ fn set(table: &mut Table, key: &str, value: &Value) -> Result<(), String> {
     };
     let count = experiments.len();
     if chosen.is_some_and(|number| !(1..=count).contains(&number)) {
-        return Err(format!("the file has {count} experiments"));
+        return Err(format!("the file counts its experiments from 1 to {count}"));
     }
     for (k, experiment) in experiments.iter_mut().enumerate() {
         if chosen.is_none_or(|number| number == k + 1) {
@@ -97,7 +97,10 @@ mod tests {
         let error = |setting: &str| one.with(&[setting.to_owned()]).and_then(|text| text.parse()).map(|_| ());
         let said = |setting: &str| error(setting).expect_err(setting).to_string();
         assert_eq!(said("replicates"), "-D replicates: the form is key=value");
-        assert_eq!(said("experiment.3.values=[1]"), "-D experiment.3.values=[1]: the file has 1 experiments");
+        assert_eq!(
+            said("experiment.3.values=[1]"),
+            "-D experiment.3.values=[1]: the file counts its experiments from 1 to 1"
+        );
         assert!(said("replicats=7").contains("did you mean \"replicates\"?"), "{}", said("replicats=7"));
     }
 }

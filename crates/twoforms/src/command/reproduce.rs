@@ -13,8 +13,8 @@ use super::experiment;
 use crate::args::{Format, ReproduceArgs};
 use crate::output;
 
-/// Lists, or works out what is named.
-pub fn run_all(args: &ReproduceArgs) -> Result<Found> {
+/// Works out what is named, or all.
+fn run_all(args: &ReproduceArgs) -> Result<Found> {
     let threads = args.threads.map_or(0, usize::from);
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     let texts = texts(args)?;

@@ -110,9 +110,6 @@ impl Geometry {
     /// meets both, the emitter. None too where the direction is not finite, or zero.
     #[inline]
     pub fn vp(&self, ray: &Ray) -> Option<Hit> {
-        if !ray.leads() {
-            return None;
-        }
         match &self.veil {
             None => self.tracer.closest(&self.mesh, ray).map(|hit| self.emitter_or(ray, hit)),
             Some(veil) => self.first_that_ends(veil, ray),
@@ -121,7 +118,7 @@ impl Geometry {
 
     /// y = vp(x, Ψ) of each ray, as [`Self::vp`] gives them: sooner where neighbours run alike, as those of a camera do.
     pub fn vp_of(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        if self.is_veiled() || !rays.iter().all(Ray::leads) {
+        if self.is_veiled() {
             return rays.iter().zip(hits).for_each(|(ray, hit)| *hit = self.vp(ray));
         }
         self.tracer.closest_of(&self.mesh, rays, hits);
@@ -133,22 +130,22 @@ impl Geometry {
     /// V(x, y) for the point y at distance `before` along the ray from x, on target `target`: whether nothing that may
     /// block this target stands between.
     pub fn visible(&self, ray: &Ray, before: f64, target: u32) -> bool {
-        if let (Some(veil), true) = (&self.veil, ray.leads()) {
+        if let Some(veil) = &self.veil {
             let ends = |triangle| self.may_block(triangle, target) && self.ends(veil, ray, triangle);
             return !self.tracer.any(&self.mesh, ray, before, ends);
         }
-        !ray.leads() || !self.tracer.any(&self.mesh, ray, before, |triangle| self.may_block(triangle, target))
+        !self.tracer.any(&self.mesh, ray, before, |triangle| self.may_block(triangle, target))
     }
 
     /// Whether the ray meets any surface at a distance below `before`.
     pub fn blocked(&self, ray: &Ray, before: f64) -> bool {
-        ray.leads() && self.tracer.any(&self.mesh, ray, before, |_| true)
+        self.tracer.any(&self.mesh, ray, before, |_| true)
     }
 
     /// The share of light from the point at distance `before` along the ray, on target `target`, that passes what is
     /// blended in between: Π (1 − share).
     pub fn transmittance(&self, ray: &Ray, before: f64, target: u32) -> f64 {
-        let Some(veil) = self.veil.as_ref().filter(|_| ray.leads()) else { return 1.0 };
+        let Some(veil) = self.veil.as_ref() else { return 1.0 };
         let met = RefCell::new(Vec::new());
         self.tracer.any(&self.mesh, ray, before, |triangle| {
             if veil.cover(triangle) == Cover::Blended && self.may_block(triangle, target) {
@@ -213,7 +210,7 @@ impl Geometry {
 
     /// Every triangle that a ray meets and for which `asked` holds, with the share that it stops, from the nearest on.
     fn all_met(&self, ray: &Ray, asked: impl Fn(u32) -> bool) -> Vec<Layer> {
-        let Some(veil) = self.veil.as_ref().filter(|_| ray.leads()) else { return Vec::new() };
+        let Some(veil) = self.veil.as_ref() else { return Vec::new() };
         let met = RefCell::new(Vec::new());
         self.tracer.any(&self.mesh, ray, f64::INFINITY, |triangle| {
             if asked(triangle) {

@@ -10,7 +10,7 @@ use crate::ray::{Hit, Ray, Shear};
 
 /// Answers questions about the triangles of a mesh. Every answer is a function of the question alone: it depends neither
 /// on the order of traversal nor on which tracer is asked. A triangle whose plane holds the ray's origin is never met
-/// (see [`blocking`]).
+/// (see [`blocking`]), nor is any by a ray whose direction is not finite or zero.
 pub trait Tracer {
     /// The nearest triangle along the ray.
     fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit>;
@@ -63,6 +63,9 @@ pub struct BruteForce;
 
 impl Tracer for BruteForce {
     fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
+        if !ray.leads() {
+            return None;
+        }
         let shear = Shear::new(ray);
         let hit = |triangle| meet(&mesh.triangle(triangle), ray, &shear).map(|t| Hit { t, triangle });
         let hits = (0..mesh.len() as u32).filter_map(hit);
@@ -71,7 +74,8 @@ impl Tracer for BruteForce {
 
     fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
         let shear = Shear::new(ray);
-        (0..mesh.len() as u32)
+        ray.leads()
+            && (0..mesh.len() as u32)
             .filter(|&index| blocks(index))
             .any(|index| meet(&mesh.triangle(index), ray, &shear).is_some_and(|t| t < before))
     }

@@ -79,7 +79,7 @@ impl<S: Simd> Crossings<S> {
         let (margin, slack, extent) = (self.margin * 4.0, self.slack * 4.0, packet.extent());
         let inside = self.least.simd_gt(margin) | self.most.simd_lt(-margin);
         let near = self.aside.simd_le(2.0 * extent);
-        let clear = (self.along - slack).simd_gt(CLEAR * probe.magnitude as f32 * extent * extent);
+        let clear = (self.along - slack).simd_gt(CLEAR * probe.magnitude * extent * extent);
         let short = (self.along + slack).simd_lt(self.sum * (probe.depth * before));
         mask(inside & near & clear & short)
     }

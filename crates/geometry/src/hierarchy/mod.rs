@@ -44,7 +44,7 @@ pub struct Hierarchy {
     root: Option<Child>,
     /// The largest coordinate of the mesh.
     magnitude: f32,
-    /// Rays whose origins have no coordinate as large as this are held against lanes.
+    /// Rays whose origins are closer to 0 than the root of this are held against lanes.
     limit: f64,
     /// The stack that walks need.
     depth: Depth,
@@ -81,7 +81,7 @@ impl Hierarchy {
     /// Builds the hierarchy for given instructions.
     pub fn with_level(mesh: &Mesh, level: Level) -> Self {
         let magnitude = mesh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-        let limit = if f64::from(magnitude) < HUGE { HUGE } else { 0.0 };
+        let limit = if f64::from(magnitude) < HUGE { HUGE * HUGE } else { 0.0 };
         let (nodes, packets, triangles) = (Vec::new(), Vec::new(), Vec::new());
         let mut hierarchy =
             Self { nodes, packets, triangles, root: None, magnitude, limit, depth: Depth::Shallow, level };
@@ -148,10 +148,16 @@ impl Hierarchy {
         most
     }
 
-    /// Whether lanes can hold rays from the origin of this one: beyond, products overflow, and brute force answers.
+    /// Whether lanes can hold the ray as it is.
     #[inline(always)]
     fn holds(&self, ray: &Ray) -> bool {
-        ray.origin.abs().max_element() < self.limit
+        self.reaches(ray) & STEPS.contains(&ray.direction.length_squared())
+    }
+
+    /// Whether lanes can hold rays from the origin of this one: beyond, products overflow, and brute force answers.
+    #[inline(always)]
+    fn reaches(&self, ray: &Ray) -> bool {
+        ray.origin.length_squared() < self.limit
     }
 
     #[inline(always)]
@@ -159,18 +165,24 @@ impl Hierarchy {
         walk!(self, simd, Pending => traverse::closest::<_, Pending>(simd, self, ray))
     }
 
-    /// The nearest triangle along a ray of extreme length.
+    /// The nearest triangle along a ray that lanes can't hold as it is.
     #[cold]
     #[inline(never)]
-    fn closest_scaled(&self, ray: &Ray) -> Option<Hit> {
+    fn closest_otherwise(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
+        if !ray.leads() || !self.reaches(ray) {
+            return BruteForce.closest(mesh, ray);
+        }
         let (ray, unit) = ray.scaled();
         self.closest_hit(&ray).map(|hit| Hit { t: hit.t / unit, ..hit })
     }
 
-    /// Whether a ray of extreme length is blocked.
+    /// Whether a ray that lanes can't hold as it is is blocked.
     #[cold]
     #[inline(never)]
-    fn any_scaled(&self, ray: &Ray, before: f64, blocks: &impl Fn(u32) -> bool) -> bool {
+    fn any_otherwise(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: &impl Fn(u32) -> bool) -> bool {
+        if !ray.leads() || !self.reaches(ray) {
+            return BruteForce.any(mesh, ray, before, blocks);
+        }
         let (ray, unit) = ray.scaled();
         self.any_hit(&ray, before * unit, blocks)
     }
@@ -184,18 +196,12 @@ impl Hierarchy {
 impl Tracer for Hierarchy {
     #[inline]
     fn closest(&self, mesh: &Mesh, ray: &Ray) -> Option<Hit> {
-        if !self.holds(ray) {
-            return BruteForce.closest(mesh, ray);
-        }
-        if !STEPS.contains(&ray.direction.abs().max_element()) {
-            return self.closest_scaled(ray);
-        }
-        self.closest_hit(ray)
+        if self.holds(ray) { self.closest_hit(ray) } else { self.closest_otherwise(mesh, ray) }
     }
 
     fn closest_of(&self, mesh: &Mesh, rays: &[Ray], hits: &mut [Option<Hit>]) {
         for (rays, hits) in rays.chunks(WIDTH).zip(hits.chunks_mut(WIDTH)) {
-            let plain = rays.iter().all(|ray| self.holds(ray) && STEPS.contains(&ray.direction.abs().max_element()));
+            let plain = rays.iter().all(|ray| self.holds(ray));
             let together = plain && walk!(self, simd, Pending => bundle::closest::<_, Pending>(simd, self, rays, hits));
             if !together {
                 for (ray, hit) in rays.iter().zip(hits) {
@@ -207,13 +213,11 @@ impl Tracer for Hierarchy {
 
     #[inline]
     fn any(&self, mesh: &Mesh, ray: &Ray, before: f64, blocks: impl Fn(u32) -> bool) -> bool {
-        if !self.holds(ray) {
-            return BruteForce.any(mesh, ray, before, blocks);
+        if self.holds(ray) {
+            self.any_hit(ray, before, &blocks)
+        } else {
+            self.any_otherwise(mesh, ray, before, &blocks)
         }
-        if !STEPS.contains(&ray.direction.abs().max_element()) {
-            return self.any_scaled(ray, before, &blocks);
-        }
-        self.any_hit(ray, before, &blocks)
     }
 
     fn within(&self, _: &Mesh, region: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {

@@ -11,8 +11,9 @@ pub(super) const EPSILON: f32 = f32::EPSILON / 2.0;
 
 /// Coordinates from this magnitude on are not held against lanes: products would overflow.
 pub(super) const HUGE: f64 = (1_u64 << 40) as f64;
-/// The largest components of directions that are held against lanes as they are.
-pub(super) const STEPS: Range<f64> = 1.0 / (1 << 30) as f64..(1 << 30) as f64;
+/// The squared lengths of directions that are held against lanes as they are: their largest components are between 2⁻³⁰
+/// and 2³⁰.
+pub(super) const STEPS: Range<f64> = 3.0 / (1_u64 << 60) as f64..(1_u64 << 60) as f64;
 /// Scenes smaller than this are taken to be of this size, so that what is granted to rounding does not underflow.
 const SMALL: f32 = 1.0 / (1_u64 << 60) as f32;
 
@@ -29,6 +30,21 @@ pub(super) const STRETCH: f32 = 1.0 + 16.0 * EPSILON;
 
 /// By how much distances are shortened for their own rounding and that of the products they are compared with.
 const SHORTENED: f32 = 1.0 - 64.0 * EPSILON;
+
+/// For each set of axes along which a ray runs backward, a bit each: the rows of a node that hold the faces where it enters,
+/// and those where it leaves.
+const FACES: [[[usize; 3]; 2]; 8] = {
+    let mut faces = [[[0; 3]; 2]; 8];
+    let mut place = 0;
+    while place < 24 {
+        let (negative, k) = (place / 3, place % 3);
+        let backward = negative >> k & 1;
+        faces[negative][backward][k] = k;
+        faces[negative][1 - backward][k] = k + 3;
+        place += 1;
+    }
+    faces
+};
 
 /// The sign bit of a binary32 number.
 pub(super) const SIGN: u32 = 1 << 31;
@@ -68,8 +84,8 @@ pub(super) struct Probe {
     pub(super) depth: f32,
     /// 32ε times the origin's largest coordinate.
     pub(super) blur: f32,
-    /// The largest coordinate of the origin and the scene.
-    pub(super) magnitude: f64,
+    /// The largest coordinate of the origin and the scene, rounded up.
+    pub(super) magnitude: f32,
 }
 
 impl Probe {
@@ -101,15 +117,14 @@ impl Probe {
         let most = origin.abs().max_element();
         let apart = origin.abs() * (8.0 * EPSILON) + GRAZE * most.max(magnitude).max(SMALL);
         let (shift, slack) = (origin * rate, apart * rate.abs());
-        let negative = rate.is_negative_bitmask();
-        let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
+        let [near, far] = FACES[rate.is_negative_bitmask() as usize % FACES.len()];
         Self {
             rate: rate.to_array(),
             stretched: (rate * STRETCH).to_array(),
             enter: (-shift - slack).to_array(),
             leave: ((slack - shift) * STRETCH).to_array(),
-            near: [row(0, 0), row(1, 0), row(2, 0)],
-            far: [row(0, 1), row(1, 1), row(2, 1)],
+            near,
+            far,
             place: origin.to_array(),
             apart: apart.to_array(),
             axes: shear.axes,
@@ -118,7 +133,7 @@ impl Probe {
             backward: (shear.along as f32).to_bits() & SIGN,
             depth: shear.along.abs() as f32,
             blur: 32.0 * EPSILON * most,
-            magnitude: ray.origin.abs().max_element().max(f64::from(magnitude)),
+            magnitude: most.max(magnitude) * STRETCH,
         }
     }
 }

@@ -43,7 +43,7 @@ pub(super) fn closest_in<S: Simd>(
 ) {
     let packet = &tree.packets[child.index()];
     for lane in lanes(Crossings::new(simd, packet, probe).possible(probe, *reach)) {
-        if let Some(t) = packet.meet(lane, ray, shear, probe.magnitude).filter(|&t| t <= best.t) {
+        if let Some(t) = packet.meet(lane, ray, shear, f64::from(probe.magnitude)).filter(|&t| t <= best.t) {
             let new = Best { t, packet: child, lane };
             if new.before(best, tree) {
                 (*best, *reach) = (new, reach_of(t));
@@ -98,7 +98,7 @@ fn any_in<S: Simd>(
     }
     let certain = crossings.certain(packet, probe, short_of(before));
     let blocking = |lane: usize| blocks(tree.triangles[child.index()][lane]);
-    let met = |lane: usize| packet.meet(lane, ray, shear, probe.magnitude).is_some_and(|t| t < before);
+    let met = |lane: usize| packet.meet(lane, ray, shear, f64::from(probe.magnitude)).is_some_and(|t| t < before);
     lanes(certain).any(blocking) || lanes(possible & !certain).any(|lane| met(lane) && blocking(lane))
 }
 

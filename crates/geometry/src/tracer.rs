@@ -76,8 +76,8 @@ impl Tracer for BruteForce {
         let shear = Shear::new(ray);
         ray.leads()
             && (0..mesh.len() as u32)
-            .filter(|&index| blocks(index))
-            .any(|index| meet(&mesh.triangle(index), ray, &shear).is_some_and(|t| t < before))
+                .filter(|&index| blocks(index))
+                .any(|index| meet(&mesh.triangle(index), ray, &shear).is_some_and(|t| t < before))
     }
 
     fn within(&self, mesh: &Mesh, _: &Region, mut visit: impl FnMut(u32) -> ControlFlow<()>) {

@@ -117,7 +117,10 @@ impl Probe {
         let most = origin.abs().max_element();
         let apart = origin.abs() * (8.0 * EPSILON) + GRAZE * most.max(magnitude).max(SMALL);
         let (shift, slack) = (origin * rate, apart * rate.abs());
-        let [near, far] = FACES[rate.is_negative_bitmask() as usize % FACES.len()];
+        let negative = rate.is_negative_bitmask();
+        let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
+        let near = [row(0, 0), row(1, 0), row(2, 0)];
+        let far = [row(0, 1), row(1, 1), row(2, 1)];
         Self {
             rate: rate.to_array(),
             stretched: (rate * STRETCH).to_array(),

@@ -9,9 +9,10 @@ use std::error::Error;
 
 use glam::DVec3;
 use twoforms_comparison::world::World;
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::{Sampler, Stream};
-use twoforms_estimator::secondary::secondary;
+use twoforms_estimator::secondary::secondary_in;
 use twoforms_estimator::strategy::{Known, Prepared, Strategy};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::frame::Frame;
@@ -60,12 +61,12 @@ fn mean_irradiance(
     round: u64,
 ) -> Result<f64, Box<dyn Error>> {
     let query = Query::irradiance(&world.lights);
-    let mut sum = 0.0;
+    let (mut sum, mut batch) = (0.0, Batch::new(prepared.strategy().pairs()));
     for (frame, point) in frames.iter().zip(0..) {
         let view = View::new(&world.geometry, *frame, Effort::Gather);
         let draws = Draws { key: Key::new([round, point]), stream: [n, 0] };
         let stream = Stream { sampler: Sampler::Independent, draws, n };
-        sum += secondary(&*prepared.at(&view, &query, &Known::default()), stream)?.luminance.mean;
+        sum += secondary_in(&mut batch, &*prepared.at(&view, &query, &Known::default()), stream)?.luminance.mean;
     }
     Ok(sum / frames.len() as f64)
 }

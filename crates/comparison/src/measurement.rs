@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimate::{self, NotFinite};
 use twoforms_estimator::estimator::Estimator;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::rgb::luminance;
 use twoforms_estimator::sampler::Stream;
-use twoforms_estimator::secondary::secondary;
+use twoforms_estimator::secondary::secondary_in;
 use twoforms_estimator::strategy::Known;
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::view::View;
@@ -91,11 +92,12 @@ struct Replicates<'a> {
 impl Replicates<'_> {
     fn measure(self) -> Result<Measurement, (u32, NotFinite)> {
         let Plan { sampler, samples, .. } = *self.plan;
-        let mut measurement = Measurement::default();
+        let (mut measurement, mut batch) = (Measurement::default(), Batch::new(self.estimator.pairs()));
         for replicate in self.range {
             let draws = Draws { key: self.key, stream: [samples, replicate] };
             let stream = Stream { sampler, draws, n: samples };
-            let estimate = secondary(self.estimator, stream).map_err(|not_finite| (replicate, not_finite))?;
+            let estimate = secondary_in(&mut batch, self.estimator, stream);
+            let estimate = estimate.map_err(|not_finite| (replicate, not_finite))?;
             measurement.push(&estimate, self.emission);
         }
         Ok(measurement)

@@ -46,6 +46,13 @@ impl Batch {
         }
     }
 
+    /// Makes room for samples that take so many pairs of random numbers, all from x and wanted.
+    pub fn empty(&mut self, pairs: usize) {
+        self.numbers.fit(pairs);
+        self.wanted.fill(1);
+        self.from_points = false;
+    }
+
     /// Samples that lie side by side, from `offset` on.
     #[inline(always)]
     pub(crate) fn evaluate<R: Real, P: Primary>(&mut self, primary: &P, from: Vantage<R>, offset: usize) {

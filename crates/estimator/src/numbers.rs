@@ -34,7 +34,14 @@ pub struct Drawn<'n> {
 impl Numbers {
     /// Room for samples that take so many pairs.
     pub fn new(pairs: usize) -> Self {
-        Self { pairs: vec![Words([[0; ROOM]; 2]); pairs], weights: None }
+        let mut numbers = Self { pairs: Vec::new(), weights: None };
+        numbers.fit(pairs);
+        numbers
+    }
+
+    /// Makes room for samples that take so many pairs.
+    pub(crate) fn fit(&mut self, pairs: usize) {
+        self.pairs.resize(pairs, Words([[0; ROOM]; 2]));
     }
 
     /// ξ of the samples from `offset` on.

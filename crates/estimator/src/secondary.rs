@@ -19,7 +19,15 @@ use crate::sampler::Stream;
 /// # Errors
 /// When a sample is not finite.
 pub fn secondary(estimator: &dyn Estimator, stream: Stream) -> Result<Estimate, NotFinite> {
-    secondary_by(estimator, Instructions::best(), stream, 0..stream.n)
+    secondary_in(&mut Batch::new(estimator.pairs()), estimator, stream)
+}
+
+/// The same in a batch that is there already, whatever it has held: for those who need many estimates.
+///
+/// # Errors
+/// When a sample is not finite.
+pub fn secondary_in(batch: &mut Batch, estimator: &dyn Estimator, stream: Stream) -> Result<Estimate, NotFinite> {
+    sum(batch, estimator, Instructions::best(), stream, 0..stream.n)
 }
 
 /// The mean of some of the N samples, by these instructions. The bits do not depend on them.
@@ -32,18 +40,27 @@ pub fn secondary_by(
     stream: Stream,
     samples: Range<u32>,
 ) -> Result<Estimate, NotFinite> {
-    let mut estimate = Estimate::default();
-    let mut batch = Batch::new(estimator.pairs());
-    let mut divisor = [0.0; 3];
+    sum(&mut Batch::new(estimator.pairs()), estimator, instructions, stream, samples)
+}
+
+fn sum(
+    batch: &mut Batch,
+    estimator: &dyn Estimator,
+    instructions: Instructions,
+    stream: Stream,
+    samples: Range<u32>,
+) -> Result<Estimate, NotFinite> {
+    let (mut estimate, mut divisor) = (Estimate::default(), [0.0; 3]);
+    batch.empty(estimator.pairs());
     for start in samples.clone().step_by(BATCH) {
         batch.length = BATCH.min((samples.end - start) as usize);
         batch.wanted[batch.length..].fill(0);
         stream.fill(instructions, start, batch.length, &mut batch.numbers);
-        estimator.evaluate(instructions, &mut batch);
+        estimator.evaluate(instructions, batch);
         for channel in &mut batch.worth {
             channel[batch.length..].fill(0.0);
         }
-        instructions.run(Add { batch: &batch, estimate: &mut estimate }).map_err(|k| not_finite(&batch, start, k))?;
+        instructions.run(Add { batch, estimate: &mut estimate }).map_err(|k| not_finite(batch, start, k))?;
         if estimator.is_quotient() {
             batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..batch.length]));
         }
@@ -94,9 +111,7 @@ fn add<W: Wide>(batch: &Batch, estimate: &mut Estimate) -> Result<(), usize> {
     estimate.hits += hits.sum() as u64;
     estimate.range = estimate::Range { low: least(low), high: -least(zero - high) };
     estimate.luminance = estimate.luminance + moments;
-    for rays in &batch.rays[..batch.length] {
-        estimate.rays += u64::from(*rays);
-    }
+    estimate.rays += u64::from(batch.rays[..batch.length].iter().sum::<u32>());
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! Eight binary64 numbers side by side, for sums over many samples.
 //!
 //! A sum depends on its order in the last bits. Eight partial sums are kept whatever the width of the machine's vectors,
-//! and folded in order, so that it is the same everywhere.
+//! and folded in one order, so that it is the same everywhere.
 
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
@@ -33,11 +33,11 @@ pub trait Wide: Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     /// `yes` where the mask holds, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// The sum of the eight in order.
+    /// The sum of the eight: the one half to the other, until one is left.
     #[inline(always)]
     fn sum(self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.to_array();
-        a + b + c + d + e + f + g + h
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
     }
 }
 

@@ -31,21 +31,6 @@ pub(super) const STRETCH: f32 = 1.0 + 16.0 * EPSILON;
 /// By how much distances are shortened for their own rounding and that of the products they are compared with.
 const SHORTENED: f32 = 1.0 - 64.0 * EPSILON;
 
-/// For each set of axes along which a ray runs backward, a bit each: the rows of a node that hold the faces where it enters,
-/// and those where it leaves.
-const FACES: [[[usize; 3]; 2]; 8] = {
-    let mut faces = [[[0; 3]; 2]; 8];
-    let mut place = 0;
-    while place < 24 {
-        let (negative, k) = (place / 3, place % 3);
-        let backward = negative >> k & 1;
-        faces[negative][backward][k] = k;
-        faces[negative][1 - backward][k] = k + 3;
-        place += 1;
-    }
-    faces
-};
-
 /// The sign bit of a binary32 number.
 pub(super) const SIGN: u32 = 1 << 31;
 

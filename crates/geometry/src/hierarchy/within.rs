@@ -61,14 +61,15 @@ impl Planes {
     fn new(region: &Region) -> Self {
         let origin = region.origin.as_vec3().to_array();
         let most = region.origin.abs().max_element();
-        let planes = region.half_spaces.iter().filter_map(|&(normal, offset)| {
+        let mut planes = Vec::with_capacity(region.half_spaces.len());
+        planes.extend(region.half_spaces.iter().filter_map(|&(normal, offset)| {
             let length = normal.abs().max_element();
             let (normal, offset) = if length > 0.0 { (normal / length, offset / length) } else { (normal, offset) };
             let grown = offset + f64::from(EPSILON) * (4.0 * most + 2.0 * offset.abs());
             (normal.is_finite() && grown.is_finite())
                 .then(|| Plane { normal: normal.as_vec3().to_array(), offset: grown as f32 })
-        });
-        Self { origin, planes: planes.collect() }
+        }));
+        Self { origin, planes }
     }
 
     /// The children whose boxes may touch the region, a bit each.

@@ -66,7 +66,7 @@ fn mean_irradiance(
         let view = View::new(&world.geometry, *frame, Effort::Gather);
         let draws = Draws { key: Key::new([round, point]), stream: [n, 0] };
         let stream = Stream { sampler: Sampler::Independent, draws, n };
-        sum += secondary_in(&mut batch, &*prepared.at(&view, &query, &Known::default()), stream)?.luminance.mean;
+        sum += secondary_in(&mut batch, &*prepared.at(&view, &query, &Known::default()), stream, 0..n)?.luminance.mean;
     }
     Ok(sum / frames.len() as f64)
 }

@@ -96,7 +96,7 @@ impl Replicates<'_> {
         for replicate in self.range {
             let draws = Draws { key: self.key, stream: [samples, replicate] };
             let stream = Stream { sampler, draws, n: samples };
-            let estimate = secondary_in(&mut batch, self.estimator, stream);
+            let estimate = secondary_in(&mut batch, self.estimator, stream, 0..samples);
             let estimate = estimate.map_err(|not_finite| (replicate, not_finite))?;
             measurement.push(&estimate, self.emission);
         }

@@ -6,6 +6,7 @@ use twoforms_geometry::view::Vantage;
 use crate::estimator::{Primary, Worth};
 use crate::numbers::{BATCH, Numbers};
 use crate::rgb::Rgb;
+use crate::sampler::ROW;
 
 /// Some samples: their ξ, where they look from, what they are worth, RGB, and the rays they asked for. Arrays have one entry a
 /// sample, and stand on lines of the cache.
@@ -46,11 +47,24 @@ impl Batch {
         }
     }
 
-    /// Makes room for samples that take so many pairs of random numbers, all from x and wanted.
-    pub fn empty(&mut self, pairs: usize) {
+    /// Makes room for samples that take so many pairs of random numbers, all from x.
+    pub(crate) fn empty(&mut self, pairs: usize) {
         self.numbers.fit(pairs);
-        self.wanted.fill(1);
         self.from_points = false;
+    }
+
+    /// Wants the first samples, so many, and of the row that they end in no more.
+    pub(crate) fn want(&mut self, length: usize) {
+        self.length = length;
+        self.wanted[..length].fill(1);
+        self.wanted[length..length.next_multiple_of(ROW)].fill(0);
+    }
+
+    /// Those of the last row that are beyond the samples are worth nothing.
+    pub(crate) fn round_up(&mut self) {
+        for channel in &mut self.worth {
+            channel[self.length..self.length.next_multiple_of(ROW)].fill(0.0);
+        }
     }
 
     /// Samples that lie side by side, from `offset` on.

@@ -6,7 +6,7 @@ use crate::sampler::ROW;
 use crate::xi::Xi;
 
 /// Samples evaluated together.
-pub const BATCH: usize = 128;
+pub const BATCH: usize = 512;
 
 /// Places for their numbers: some more, since as many are written at once as lie side by side.
 pub(crate) const ROOM: usize = BATCH + ROW;

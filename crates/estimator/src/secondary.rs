@@ -19,15 +19,20 @@ use crate::sampler::Stream;
 /// # Errors
 /// When a sample is not finite.
 pub fn secondary(estimator: &dyn Estimator, stream: Stream) -> Result<Estimate, NotFinite> {
-    secondary_in(&mut Batch::new(estimator.pairs()), estimator, stream)
+    secondary_in(&mut Batch::new(estimator.pairs()), estimator, stream, 0..stream.n)
 }
 
-/// The same in a batch that is there already, whatever it has held: for those who need many estimates.
+/// The mean of some of the N samples in a batch that is there already, whatever it has held: for many estimates.
 ///
 /// # Errors
 /// When a sample is not finite.
-pub fn secondary_in(batch: &mut Batch, estimator: &dyn Estimator, stream: Stream) -> Result<Estimate, NotFinite> {
-    sum(batch, estimator, Instructions::best(), stream, 0..stream.n)
+pub fn secondary_in(
+    batch: &mut Batch,
+    estimator: &dyn Estimator,
+    stream: Stream,
+    samples: Range<u32>,
+) -> Result<Estimate, NotFinite> {
+    sum(batch, estimator, Instructions::best(), stream, samples)
 }
 
 /// The mean of some of the N samples, by these instructions. The bits do not depend on them.
@@ -53,13 +58,10 @@ fn sum(
     let (mut estimate, mut divisor) = (Estimate::default(), [0.0; 3]);
     batch.empty(estimator.pairs());
     for start in samples.clone().step_by(BATCH) {
-        batch.length = BATCH.min((samples.end - start) as usize);
-        batch.wanted[batch.length..].fill(0);
+        batch.want(BATCH.min((samples.end - start) as usize));
         stream.fill(instructions, start, batch.length, &mut batch.numbers);
         estimator.evaluate(instructions, batch);
-        for channel in &mut batch.worth {
-            channel[batch.length..].fill(0.0);
-        }
+        batch.round_up();
         instructions.run(Add { batch, estimate: &mut estimate }).map_err(|k| not_finite(batch, start, k))?;
         if estimator.is_quotient() {
             batch.divisor.iter().zip(&mut divisor).for_each(|(part, sum)| *sum += total(&part[..batch.length]));

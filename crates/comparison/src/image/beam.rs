@@ -70,7 +70,6 @@ impl<'a> Beam<'a> {
         let mut sums = vec![Sum::default(); places.len()];
         let Rendering { spp, strategy, .. } = *self.painter.rendering;
         let mut batch = Batch::new(strategy.pairs());
-        batch.from_points = true;
         chunk.clear();
         for (pixel, &[x, y]) in places.iter().enumerate() {
             for first in (0..spp).step_by(chunk::SIZE) {
@@ -114,7 +113,7 @@ impl<'a> Beam<'a> {
     /// Samples the lights wherever a pane is met: together, or where its points see the lights too differently one by one.
     fn light(&self, chunk: &mut Chunk, batch: &mut Batch, stage: &Stage, pane: u32) -> Result<(), (usize, NotFinite)> {
         if stage.surface.varies == Varies::Wholly {
-            return self.shade_each(chunk, pane);
+            return self.shade_each(chunk, batch, pane);
         }
         let emission = stage.surface.emission;
         if emission != [0.0; 3] {
@@ -134,10 +133,10 @@ impl<'a> Beam<'a> {
     }
 
     /// Asks about each point by itself.
-    fn shade_each(&self, chunk: &mut Chunk, pane: u32) -> Result<(), (usize, NotFinite)> {
+    fn shade_each(&self, chunk: &mut Chunk, batch: &mut Batch, pane: u32) -> Result<(), (usize, NotFinite)> {
         for k in chunk.that_meet(pane).collect::<Vec<_>>() {
-            let shaded =
-                self.painter.shade(&self.met(chunk, k, pane), chunk.stream(k)).map_err(|source| (k, source))?;
+            let shaded = self.painter.shade(&self.met(chunk, k, pane), chunk.stream(k), batch);
+            let shaded = shaded.map_err(|source| (k, source))?;
             chunk.add(k, shaded.value, shaded.rays as u32 - 1);
         }
         Ok(())
@@ -162,7 +161,8 @@ impl<'a> Beam<'a> {
             let seen = self.met(chunk, k, pane);
             // What is asked knows where the eye is by the frame of the point.
             let Some(query) = self.painter.surface(&seen).query else { continue };
-            let (value, rays) = self.painter.receive(&seen, &query, chunk.stream(k)).map_err(|source| (k, source))?;
+            let received = self.painter.receive(&seen, &query, chunk.stream(k), batch);
+            let (value, rays) = received.map_err(|source| (k, source))?;
             chunk.add(k, value, rays as u32);
         }
         Ok(())
@@ -226,7 +226,8 @@ impl<'a> Beam<'a> {
     fn source_of(&self, chunk: &Chunk, k: usize) -> NotFinite {
         let one_by_one = chunk.pane(k).and_then(|pane| {
             let seen = self.seen(pane, DVec3::from_array(chunk.toward(k).map(f64::from)));
-            self.painter.receive(&seen, &self.painter.surface(&seen).query?, chunk.stream(k)).err()
+            let (query, pairs) = (self.painter.surface(&seen).query?, self.painter.rendering.strategy.pairs());
+            self.painter.receive(&seen, &query, chunk.stream(k), &mut Batch::new(pairs)).err()
         });
         one_by_one.unwrap_or_else(|| NotFinite {
             index: 0,

@@ -1,10 +1,11 @@
 //! Painting an image: tiles by beams, or pixels ray by ray.
 
 use glam::DVec3;
+use twoforms_estimator::batch::Batch;
 use twoforms_estimator::estimate::NotFinite;
 use twoforms_estimator::moments::Moments;
 use twoforms_estimator::query::Query;
-use twoforms_estimator::secondary::secondary_by;
+use twoforms_estimator::secondary::secondary_in;
 use twoforms_estimator::strategy::{Known, Prepared};
 use twoforms_estimator::xi::Key;
 use twoforms_geometry::frame::Frame;
@@ -112,10 +113,10 @@ impl<'a> Painter<'a> {
     fn pixel(&self, x: u32, y: u32) -> Result<Pixel, BrokenPixel> {
         let Rendering { spp, strategy, .. } = *self.rendering;
         let mut channels: [Vec<f64>; 3] = Default::default();
-        let mut rays = 0;
+        let (mut rays, mut batch) = (0, Batch::new(strategy.pairs()));
         for sample in 0..spp {
             let broken = |source| BrokenPixel { strategy, x, y, sample, source };
-            let shaded = self.camera_sample(x, y, [self.index(x, y), sample]).map_err(broken)?;
+            let shaded = self.camera_sample(x, y, [self.index(x, y), sample], &mut batch).map_err(broken)?;
             channels.iter_mut().zip(shaded.value).for_each(|(channel, value)| channel.push(value));
             rays += shaded.rays;
         }
@@ -127,7 +128,7 @@ impl<'a> Painter<'a> {
         y * self.rendering.width + x
     }
 
-    fn camera_sample(&self, x: u32, y: u32, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+    fn camera_sample(&self, x: u32, y: u32, stream: [u32; 2], batch: &mut Batch) -> Result<Shaded, NotFinite> {
         let [dx, dy] = match self.rendering.filter {
             PixelFilter::Box => {
                 self.camera_samples().stream(stream).xi(stream[1], 1).from(0).xi(0).uv().map(<f64 as From<f32>>::from)
@@ -136,19 +137,19 @@ impl<'a> Painter<'a> {
         };
         let (x, y) = (f64::from(x) + dx, f64::from(y) + dy);
         if self.world.geometry.is_veiled() {
-            return self.shade_through(x, y, stream);
+            return self.shade_through(x, y, stream, batch);
         }
         match self.look(x, y) {
             None => Ok(Shaded { value: [0.0; 3], rays: 1 }),
-            Some(seen) => self.shade(&seen, stream),
+            Some(seen) => self.shade(&seen, stream, batch),
         }
     }
 
     /// What is seen through surfaces that are not opaque, each by the same light samples.
-    fn shade_through(&self, x: f64, y: f64, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+    fn shade_through(&self, x: f64, y: f64, stream: [u32; 2], batch: &mut Batch) -> Result<Shaded, NotFinite> {
         let mut sum = Shaded { value: [0.0; 3], rays: 1 };
         for (seen, weight) in self.world.see_through(&self.ray(x, y)) {
-            let Shaded { value, rays } = self.shade(&seen, stream)?;
+            let Shaded { value, rays } = self.shade(&seen, stream, batch)?;
             sum.value = std::array::from_fn(|c| sum.value[c] + weight * value[c]);
             sum.rays += rays - 1;
         }
@@ -198,11 +199,11 @@ impl<'a> Painter<'a> {
     }
 
     /// L_e of what is seen, plus what it reflects.
-    pub(super) fn shade(&self, seen: &Seen, stream: [u32; 2]) -> Result<Shaded, NotFinite> {
+    pub(super) fn shade(&self, seen: &Seen, stream: [u32; 2], batch: &mut Batch) -> Result<Shaded, NotFinite> {
         let Surface { mut emission, query, varies } = self.surface(seen);
         let (mut value, mut rays) = ([0.0; 3], 0);
         if let Some(query) = query {
-            (value, rays) = self.receive(seen, &query, stream)?;
+            (value, rays) = self.receive(seen, &query, stream, batch)?;
         }
         if varies == Varies::InColour {
             let colour = self.colour(seen);
@@ -212,13 +213,19 @@ impl<'a> Painter<'a> {
     }
 
     /// The mean of the light samples at one point, and the rays it took.
-    pub(super) fn receive(&self, seen: &Seen, query: &Query, stream: [u32; 2]) -> Result<([f64; 3], u64), NotFinite> {
+    pub(super) fn receive(
+        &self,
+        seen: &Seen,
+        query: &Query,
+        stream: [u32; 2],
+        batch: &mut Batch,
+    ) -> Result<([f64; 3], u64), NotFinite> {
         let samples = self.light_samples();
         let effort = if samples.each >= GATHER_FROM { Effort::Gather } else { Effort::Cast };
         let view = View::new(&self.world.geometry, Frame::new(seen.position, seen.normal), effort);
         let (stream, first) = (samples.stream(stream), stream[1] * samples.each);
         let estimator = self.prepared.at(&view, query, &Known::default());
-        let estimate = secondary_by(&*estimator, samples.instructions, stream, first..first + samples.each)?;
+        let estimate = secondary_in(batch, &*estimator, stream, first..first + samples.each)?;
         Ok((estimate.value, estimate.rays))
     }
 

@@ -25,6 +25,7 @@ impl Receive<'_> {
     /// one light sample after the other.
     pub(super) fn all(&self, chunk: &mut Chunk, batch: &mut Batch) {
         debug_assert!(!self.estimator.is_quotient(), "quotients are of one x each");
+        batch.from_points = true;
         let (mut rows, mut open) = (Vec::with_capacity(ROWS), [[0.0; ROW]; 3]);
         for from in chunk.rows_that_meet(self.pane).collect::<Vec<_>>() {
             for index in 0..self.light.each {

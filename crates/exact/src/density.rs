@@ -111,6 +111,11 @@ impl Density {
             }
     }
 
+    /// Whether points of a facet are drawn.
+    pub fn reaches(&self, index: usize) -> bool {
+        self.shares.per_measure[index] > 0.0
+    }
+
     /// The probability of a sample worth zero, and a bound of its error.
     pub fn missed(&self) -> (f64, f64) {
         (self.shares.hidden, self.shares.hidden_error)

@@ -69,7 +69,7 @@ impl Members {
     fn law(&self, sight: &Sight, weighting: Weighting, i: usize) -> Result<Law, Error> {
         let (hidden, hidden_error) = self.missed(i);
         let mut law = Law { parts: Vec::new(), hidden, hidden_error };
-        for (index, seen) in visible(sight) {
+        for (index, seen) in visible(sight).filter(|&(index, _)| self.0[i].0.reaches(index)) {
             let f = |y: DVec3| {
                 let p = self.densities(index, seen, y);
                 [seen.g(y) * over(weighting, self.expected(p), i), p[i]]
@@ -84,9 +84,12 @@ impl Members {
     }
 }
 
-/// w_i/q_i.
+/// w_i/q_i; zero where nothing is drawn, as on the horizon itself.
 pub fn over(weighting: Weighting, q: [f64; 3], i: usize) -> f64 {
     let most = q.iter().copied().fold(0.0, f64::max);
+    if most <= 0.0 {
+        return 0.0;
+    }
     let sum_from = |bound: f64| q.iter().filter(|&&q| q >= bound).sum::<f64>();
     match weighting {
         Weighting::Power => q[i] / q.iter().map(|q| q * q).sum::<f64>(),

@@ -84,7 +84,8 @@ impl<'s> Optimal<'s> {
                 from_fn::<f64, 4, _>(|channel| {
                     let (alpha, _) = &solved[channel];
                     let rest = radiance[channel] * g - (0..3).map(|k| alpha[k] * p[k]).sum::<f64>();
-                    rest * rest / c
+                    // On the horizon itself nothing arrives, and nothing may be drawn.
+                    if c > 0.0 { rest * rest / c } else { 0.0 }
                 })
             };
             let allowed = |total: &[f64; 4]| from_fn(|k| relative * total[k] + 1e-18 * solved[k].1 * solved[k].1);

@@ -58,16 +58,19 @@ pub struct Shares {
 /// The shares of a draw: light ℓ with probability q_ℓ, then a point uniform in the draw's measure, T_ℓ in all: q_ℓ/T_ℓ.
 ///
 /// # Errors
-/// [`Error::NeverPicked`] for a light that contributes with q = 0; [`Error::NoTree`].
+/// [`Error::NeverPicked`] for a light that contributes with q = 0, where nothing makes up for it; [`Error::NoTree`].
 pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares, Error> {
     let groups = groups(sight, draw, selection)?;
     let mut shares = Shares { per_measure: Vec::with_capacity(sight.seen.len()), hidden: 0.0, hidden_error: 0.0 };
     for group in &groups {
         shares.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
+    if groups.iter().all(|group| group.pick <= 0.0) {
+        shares.hidden = 1.0;
+    }
     for (index, seen) in sight.seen.iter().enumerate() {
         let group = &groups[group_of(seen, selection)];
-        if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
+        if selection.stands_alone() && group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
             return Err(Error::NeverPicked { light: seen.light });
         }
         let share = if group.pick > 0.0 && group.whole > 0.0 { group.pick / group.whole } else { 0.0 };
@@ -81,6 +84,8 @@ pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares,
         }
         shares.per_measure.push(share);
     }
+    // What lies below zero is rounding.
+    shares.hidden = if shares.hidden < 0.0 { 0.0 } else { shares.hidden };
     shares.hidden_error += 4.0 * EPSILON * shares.hidden;
     Ok(shares)
 }
@@ -261,6 +266,10 @@ fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>,
         Selection::Together | Selection::Uniform => vec![1.0; count],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
         Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+        Selection::Compensated(compensation) => {
+            let given = per_group(&|seen| seen.luminance * seen.open.m10);
+            compensation.weights(&given, &per_group(&|seen| seen.open.m10))
+        }
         Selection::Tree if draw == Draw::Uniform => by_tree,
         Selection::Tree => by_tree.iter().zip(&listed).map(|(&p, &m)| if m > 0.0 { p } else { 0.0 }).collect(),
     };

@@ -134,8 +134,7 @@ impl Reflected {
         for i in 0..members.count() {
             let p = |index: usize, seen: &Seen, y: DVec3| members.densities(index, seen, y)[i];
             let laws = self.laws(sight, members.missed(i), p, |index, seen, y| {
-                let q = members.expected(members.densities(index, seen, y));
-                if q == [0.0; 3] { 0.0 } else { over(weighting, q, i) }
+                over(weighting, members.expected(members.densities(index, seen, y)), i)
             })?;
             for (sum, law) in sums.iter_mut().zip(laws) {
                 sum.add_samples(members.samples(i), &law.outcome(&Colours(vec![[1.0; CHANNELS]; sight.seen.len()]), 0));

@@ -113,7 +113,7 @@ fn measured_variances_are_the_exact_ones() {
         strategies.iter().flat_map(|&strategy| outcomes(case, strategy, &exact)).collect::<Vec<_>>()
     };
     let outcomes = cases.par_iter().flat_map_iter(all).collect();
-    Family::new("variances against exact ones", LEVEL, SEED, outcomes).assert_holds(0.1);
+    Family::new("variances against exact ones", LEVEL, SEED, outcomes).assert_holds(0.05);
 }
 
 /// Where all light has one radiance L, a cosine-weighted sample is a coin: πL with probability E/(πL), else zero, whatever

@@ -150,18 +150,20 @@ fn parts(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Vec<Pa
     match (draw, method) {
         (Draw::Uniform, Method::Edges) => Ok(vec![spread::of_area(index, seen)]),
         (Draw::Uniform, Method::Cubature) => {
-            kept.area.get_or_init(|| spread::by_cubature(index, seen, |y| [seen.g(y), 1.0])).clone()
+            let by_cubature = || spread::by_cubature(index, seen, &seen.pieces, |y| [seen.g(y), 1.0]);
+            kept.area.get_or_init(by_cubature).clone()
         }
         (Draw::SolidAngle, Method::Edges) => Ok(vec![spread::of_solid_angle(index, seen)]),
         (Draw::SolidAngle, Method::Cubature) => {
-            let by_cubature = || spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s));
+            let f = |y: DVec3| cos_x_and_d_omega(y, seen.facet.s);
+            let by_cubature = || spread::by_cubature(index, seen, &seen.pieces, f);
             kept.solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::ProjectedSolidAngle, _) if seen.glow.is_none() => {
             Ok(vec![spread::of_projected_solid_angle(index, seen)])
         }
         (Draw::ProjectedSolidAngle, _) => {
-            let by_cubature = || spread::by_cubature(index, seen, |y| [1.0, seen.g(y)]);
+            let by_cubature = || spread::by_cubature(index, seen, &seen.pieces, |y| [1.0, seen.g(y)]);
             kept.projected_solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::BilinearCosine, _) => kept.bilinear.get_or_init(|| by_bilinear_cosine(index, seen)).clone(),
@@ -175,7 +177,7 @@ fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Vec<Part>, Error> {
         let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
         [cos_x / w, w * d_omega]
     };
-    if bilinear.is_smooth() { spread::by_cubature(index, seen, f) } else { spread::by_rough_cubature(index, seen, f) }
+    spread::by_cubature(index, seen, &bilinear.cut(seen), f)
 }
 
 /// cosθ_x = z/r and dω/dA = s/r³.

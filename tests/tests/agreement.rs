@@ -52,7 +52,8 @@ fn outcomes(stage: &Stage) -> Vec<Outcome> {
     rows.flat_map(|(case, row)| by_channel(case, row)).collect()
 }
 
-/// One test per channel where the variance is cited, else one of the luminance with the variance measured.
+/// One test per channel where the variance is cited, else one of the luminance, with the exact variance where samples are
+/// independent and one is known, else with that measured.
 fn by_channel(case: &Case, row: &Row) -> Vec<Outcome> {
     let strategy: Strategy = row.strategy.parse().expect("a strategy's name");
     let name = format!("{case} {} {} N = {} R = {}", row.strategy, row.sampler, row.samples, row.replicates);
@@ -61,9 +62,12 @@ fn by_channel(case: &Case, row: &Row) -> Vec<Outcome> {
     let Some(cited) = case.variance(strategy).filter(|_| independent) else {
         let of_mean = row.variance_of_mean.expect("several replicates");
         let means = [found.luminance, luminance(known)];
+        let name = format!("{name} luminance");
+        if let Some(exact) = row.variance_exact {
+            return vec![outcome(&name, row, means, exact, exact)];
+        }
         let cited = case.variance(strategy).map(|variance| luminance(variance) / row.samples as f64);
-        let cited = cited.or(row.variance_exact.filter(|_| independent));
-        return vec![outcome(&format!("{name} luminance"), row, means, of_mean, cited.unwrap_or(of_mean).max(of_mean))];
+        return vec![outcome(&name, row, means, of_mean, cited.unwrap_or(of_mean).max(of_mean))];
     };
     let of_channel = |c: usize| {
         let of_mean = cited[c] / row.samples as f64;

@@ -11,6 +11,7 @@ use twoforms_exact::{Error, Sight, Value, receiver};
 
 pub use twoforms_exact::with_formula;
 
+use crate::clock::timed;
 use crate::place::Place;
 use crate::result::Why;
 use crate::swept::Swept;
@@ -109,16 +110,38 @@ pub fn exactly(
 
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
+    timed_at(world, place, strategies).0
+}
+
+/// CPU seconds of what strategies must know beforehand.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct KnownSeconds {
+    /// What x sees, with its irradiance or radiance.
+    pub(crate) sight: f64,
+    /// The α of each team.
+    pub(crate) alpha: Vec<(Team, f64)>,
+}
+
+/// Works out one receiver, and says what it takes to know what strategies use.
+pub(crate) fn timed_at(world: &World, place: &Place, strategies: &[Strategy]) -> (ExactResult, KnownSeconds) {
     let frame = place.frame();
-    let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
-    let sight = sight.and_then(|sight| place.reflected(&frame, sight));
+    let (sight, seconds) = timed(|| {
+        let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
+        sight.and_then(|sight| place.reflected(&frame, sight))
+    });
+    let mut known_seconds = KnownSeconds { sight: seconds, alpha: Vec::new() };
     // Where radiance varies over a target, the unhidden light of the mean radiances is another number, and not known.
     let known = |_: &&Sight| place.is_glossy() && !world.lights.vary();
     let unoccluded = sight.as_ref().ok().filter(known).map(|sight| sight.irradiance_unoccluded().rgb);
     let teams = strategies.iter().filter_map(|strategy| strategy.needs_alpha());
-    let of = |team| Some((team, sight.as_ref().ok()?.optimal_alpha(team).ok()?));
+    let of = |team: Team| {
+        let (alpha, seconds) = timed(|| sight.as_ref().ok()?.optimal_alpha(team).ok());
+        known_seconds.alpha.push((team, seconds));
+        Some((team, alpha?))
+    };
     let alpha = teams.filter_map(of).collect();
-    ExactResult { alpha, unoccluded, ..ExactResult::new(place, ExactLight::of(place, sight, strategies), None) }
+    let light = ExactLight::of(place, sight, strategies);
+    (ExactResult { alpha, unoccluded, ..ExactResult::new(place, light, None) }, known_seconds)
 }
 
 impl ExactResult {

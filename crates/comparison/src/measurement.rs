@@ -34,6 +34,24 @@ pub(crate) struct Measurement {
     pub(crate) range: estimate::Range,
     /// CPU seconds.
     pub(crate) seconds: f64,
+    /// What it takes to make the estimator at x, once.
+    pub(crate) setup: Setup,
+}
+
+/// What it takes to make an estimator, which every task does anew.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Setup {
+    seconds: f64,
+    times: u32,
+    /// Rays asked for, each time the same.
+    pub(crate) rays: u64,
+}
+
+impl Setup {
+    /// CPU seconds, once.
+    pub(crate) fn seconds(&self) -> f64 {
+        self.seconds / f64::from(self.times.max(1))
+    }
 }
 
 impl Measurement {
@@ -47,10 +65,11 @@ impl Measurement {
         key: Key,
         task: &Task,
     ) -> Result<Self, (u32, NotFinite)> {
-        let estimator = plan.prepared.at(view, query, known);
+        let (estimator, seconds) = clock::timed(|| plan.prepared.at(view, query, known));
+        let setup = Setup { seconds, times: 1, rays: estimator.setup_rays() };
         let replicates = Replicates { plan, estimator: &*estimator, key, range: task.replicates.clone(), emission };
         let (measured, seconds) = clock::timed(|| replicates.measure());
-        Ok(Self { seconds, ..measured? })
+        Ok(Self { seconds, setup, ..measured? })
     }
 
     /// Appends what the next replicates came to; they are appended in order.
@@ -62,6 +81,9 @@ impl Measurement {
         self.hits += next.hits;
         self.range = self.range.with(next.range);
         self.seconds += next.seconds;
+        let [one, other] = [self.setup, next.setup];
+        let (seconds, times) = (one.seconds + other.seconds, one.times + other.times);
+        self.setup = Setup { seconds, times, rays: one.rays.max(other.rays) };
     }
 
     /// Pools the single samples of another row: their moments, hits and range.

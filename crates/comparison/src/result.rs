@@ -107,6 +107,10 @@ pub struct Row {
     pub rays: f64,
     /// CPU seconds per N-sample estimate.
     pub seconds: f64,
+    /// Rays of what the strategy works out once at the receiver: those of pilot samples.
+    pub setup_rays: u64,
+    /// CPU seconds of what it works out once at the receiver: its densities there, pilot samples, α.
+    pub setup_seconds: f64,
     /// 1 / (`variance_of_mean` × seconds).
     pub efficiency: Option<f64>,
     /// Reasons for missing values.

@@ -166,6 +166,8 @@ fn row(plan: &Plan, measured: &Measurement, answer: &Answer) -> Row {
         chebyshev: kept(measured, answer, variance_exact).filter(|_| random),
         rays: measured.rays as f64 / replicates as f64,
         seconds,
+        setup_rays: measured.setup.rays,
+        setup_seconds: measured.setup.seconds() + answer.known_seconds(strategy),
         efficiency: or_why(&mut why, "efficiency", efficiency, || "the variance or the time is zero or unknown".into()),
         why,
     }

@@ -38,6 +38,11 @@ pub trait Primary: Sync {
         1
     }
 
+    /// Rays that were asked for to make it, at x once.
+    fn setup_rays(&self) -> u64 {
+        0
+    }
+
     /// What samples are worth. Those that are not wanted are worth zero.
     fn primary<R: Real>(&self, from: &Vantage<R>, drawn: Drawn) -> Worth<R>;
 
@@ -61,6 +66,9 @@ pub trait Estimator: Sync {
     /// Pairs of random numbers that a sample takes.
     fn pairs(&self) -> usize;
 
+    /// Rays that were asked for to make it, at x once.
+    fn setup_rays(&self) -> u64;
+
     /// What the samples of a batch are worth.
     fn evaluate(&self, instructions: Instructions, batch: &mut Batch);
 
@@ -75,6 +83,10 @@ impl<P: Primary> Estimator for P {
 
     fn pairs(&self) -> usize {
         Primary::pairs(self)
+    }
+
+    fn setup_rays(&self) -> u64 {
+        Primary::setup_rays(self)
     }
 
     fn evaluate(&self, instructions: Instructions, batch: &mut Batch) {

@@ -4,9 +4,11 @@
 //! Three files hold the subject: [`measure`], and the mirror images `formulation/hemisphere.rs` and
 //! `formulation/area.rs`. A formulation and a density never see each other; the measure is all that they share.
 
+mod alone;
 pub mod batch;
 pub mod cells;
 pub mod combination;
+pub mod compensation;
 pub mod density;
 pub mod estimate;
 pub mod estimator;

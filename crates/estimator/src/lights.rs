@@ -152,10 +152,10 @@ impl Lights {
         (0..self.targets() as u32).map(|k| view.facing(k, projected_solid_angle).unwrap_or(0.0)).collect()
     }
 
-    /// Luminance of the irradiance at x from each target, were nothing in between, in W/m².
-    pub fn contributions(&self, view: &View) -> Vec<f64> {
-        let received = |(open, radiance): (f64, &[f32; 3])| luminance(radiance.map(f64::from)) * open;
-        self.unoccluded(view).into_iter().zip(&self.radiance).map(received).collect()
+    /// Luminance of the irradiance at x from each target, were nothing in between, in W/m²: from [`Lights::unoccluded`].
+    pub fn contributions(&self, unoccluded: &[f64]) -> Vec<f64> {
+        let received = |(open, radiance): (&f64, &[f32; 3])| luminance(radiance.map(f64::from)) * open;
+        unoccluded.iter().zip(&self.radiance).map(received).collect()
     }
 
     /// Area of each light in square metres, once, whatever the sides.

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use twoforms_geometry::masked::Masked;
-use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::real::{Mask, Real};
 use twoforms_geometry::segment::{Segment, SurfacePoint};
 use twoforms_geometry::vector::Direction;
 use twoforms_geometry::view::{Vantage, View};
 
+use crate::alone;
 use crate::glossy::Glossy;
 use crate::lights::Lights;
 use crate::rgb::Rgb;
@@ -118,10 +119,7 @@ impl<'l> Query<'l> {
     }
 }
 
-/// Samples that lie side by side, at most.
-const MOST: usize = 16;
-
-/// L_e at each sample's own y and what passes of it, in binary64 up to the look-up; black where there is no y.
+/// L_e at y and what passes of it, in binary64 up to the look-up; black where there is no y. For samples one by one.
 #[cold]
 #[inline(never)]
 fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<R>, R>) -> Rgb<R> {
@@ -129,26 +127,11 @@ fn looked_up<R: Real>(lights: &Lights, from: Vantage<R>, y: Masked<SurfacePoint<
         #[inline(always)]
         || {
             let (y, some) = y.parts();
-            let (start, toward) = (from.start().to_array(), y.position.to_array());
-            let (mut starts, mut ways) = ([[0.0; MOST]; 3], [[0.0; MOST]; 3]);
-            for c in 0..3 {
-                start[c].store(&mut starts[c]);
-                toward[c].store(&mut ways[c]);
+            if !some.any() {
+                return Rgb::splat([0.0; 3]);
             }
-            let (mut targets, mut wanted) = ([0; MOST], [0; MOST]);
-            y.target.store(&mut targets);
-            R::select_word(some, R::Word::splat(1), R::Word::splat(0)).store(&mut wanted);
-            let mut rgb = [[0.0; MOST]; 3];
-            for k in 0..R::LANES {
-                if wanted[k] != 0 {
-                    let start = [starts[0][k], starts[1][k], starts[2][k]];
-                    let l_e = arriving(lights, from.view(), targets[k], start, [ways[0][k], ways[1][k], ways[2][k]]);
-                    for c in 0..3 {
-                        rgb[c][k] = l_e[c];
-                    }
-                }
-            }
-            Rgb([R::load(&rgb[0]), R::load(&rgb[1]), R::load(&rgb[2])])
+            let [start, toward] = [from.start(), y.position].map(alone::coordinates);
+            Rgb::splat(arriving(lights, from.view(), alone::word::<R>(y.target), start, toward))
         },
     )
 }

@@ -3,6 +3,7 @@
 use twoforms_geometry::real::{Real, Word};
 use twoforms_geometry::view::View;
 
+use crate::compensation::Compensation;
 use crate::lights::Lights;
 use crate::tree::Walk;
 use crate::xi::unit;
@@ -20,11 +21,21 @@ pub enum Selection {
     Contribution,
     /// No light but a target, by a [`Tree`](crate::tree::Tree).
     Tree,
+    /// Each light in proportion to what samples by the cosine leave of its unoccluded irradiance at x, which may be nothing: only
+    /// in a team with `hemisphere/cosine`, which sets the counts of samples.
+    Compensated(Compensation),
 }
 
 impl Selection {
     /// All selections.
-    pub const ALL: [Self; 5] = [Self::Together, Self::Uniform, Self::Power, Self::Contribution, Self::Tree];
+    pub const ALL: [Self; 6] = [
+        Self::Together,
+        Self::Uniform,
+        Self::Power,
+        Self::Contribution,
+        Self::Tree,
+        Self::Compensated(Compensation { own: 1, cosine: 1 }),
+    ];
 
     /// What it adds to a strategy's name.
     pub fn suffix(self) -> &'static str {
@@ -34,6 +45,7 @@ impl Selection {
             Self::Power => "@power",
             Self::Contribution => "@contribution",
             Self::Tree => "@tree",
+            Self::Compensated(_) => "@compensated",
         }
     }
 }
@@ -41,15 +53,25 @@ impl Selection {
 impl Selection {
     /// Whether the probabilities depend on x.
     pub fn depends_on_x(self) -> bool {
-        matches!(self, Self::Contribution | Self::Tree)
+        matches!(self, Self::Contribution | Self::Tree | Self::Compensated(_))
     }
 
-    /// What each target counts at x where that is asked for: the luminance of its unoccluded irradiance, or its probability by
-    /// the tree.
+    /// Whether every light that gives something may be picked, so that a technique needs no other beside it.
+    pub fn stands_alone(self) -> bool {
+        !matches!(self, Self::Compensated(_))
+    }
+
+    /// What each light counts at x where that is asked for: the luminance of its unoccluded irradiance, or what the cosine
+    /// leaves of it. By the tree, the probability of each target.
     pub(crate) fn at_x(self, lights: &Lights, view: &View) -> Vec<f64> {
+        if self == Self::Tree {
+            return Walk::new(lights.tree(), view.frame()).probabilities();
+        }
+        let unoccluded = lights.unoccluded(view);
+        let given = lights.sums(&lights.contributions(&unoccluded));
         match self {
-            Self::Tree => Walk::new(lights.tree(), view.frame()).probabilities(),
-            _ => lights.contributions(view),
+            Self::Compensated(compensation) => compensation.weights(&given, &lights.sums(&unoccluded)),
+            _ => given,
         }
     }
 
@@ -62,7 +84,7 @@ impl Selection {
             Self::Together => return (measure.to_vec(), 0.0),
             Self::Uniform => vec![1.0; whole.len()],
             Self::Power => lights.powers().to_vec(),
-            Self::Contribution => lights.sums(&at_x()),
+            Self::Contribution | Self::Compensated(_) => at_x(),
             Self::Tree => {
                 let listed = |(p, &m): (f64, &f64)| if m > 0.0 { p } else { 0.0 };
                 return (at_x().into_iter().zip(measure).map(listed).collect(), 0.0);

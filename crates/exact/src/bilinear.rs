@@ -1,8 +1,14 @@
 //! The bilinear cosine over the pieces of a target, in binary64.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use twoforms_estimator::density::{Piece, corner_cosines, each_piece};
 use twoforms_geometry::solid_angle::solid_angle;
+
+use crate::clip::Halves;
+use crate::seen::Seen;
+use crate::visible::Pieces;
 
 /// w on the pieces of a target: bilinear over the unit square that each is drawn from uniformly in solid angle.
 pub struct Bilinear(Vec<(Piece, [f64; 4])>);
@@ -23,9 +29,17 @@ impl Bilinear {
         self.0.iter().map(|(piece, w)| piece.solid_angle() * w.iter().sum::<f64>() / 4.0).sum()
     }
 
-    /// Whether w is smooth over the target: it is one piece.
-    pub fn is_smooth(&self) -> bool {
-        self.0.len() == 1
+    /// What x sees of a facet of the target, cut where one piece of the target meets another, so that w is smooth on each part.
+    pub fn cut<'s>(&self, seen: &'s Seen) -> Cow<'s, Pieces> {
+        if self.0.len() < 2 {
+            return Cow::Borrowed(&seen.pieces);
+        }
+        let mut cut = Pieces::default();
+        for (piece, _) in &self.0 {
+            let sides = sides(piece);
+            seen.pieces.iter().for_each(|polygon| cut.push(&within(polygon, sides, seen.facet.tolerance())));
+        }
+        Cow::Owned(cut)
     }
 
     /// w at a point of the target, or nearest to it.
@@ -36,6 +50,31 @@ impl Bilinear {
         let Some(([u, v], [w00, w10, w01, w11])) = nearest else { return 0.0 };
         (w00 * (1.0 - u) + w10 * u) * (1.0 - v) + (w01 * (1.0 - u) + w11 * u) * v
     }
+}
+
+/// The planes through x of a piece's sides, their normals inward. A rectangle is a whole target.
+fn sides(piece: &Piece) -> [DVec3; 3] {
+    match piece {
+        Piece::Rectangle(..) => [DVec3::ZERO; 3],
+        Piece::Triangle(triangle) => {
+            let [a, b, c] = triangle.corners();
+            let inward = 1.0_f64.copysign(a.dot(b.cross(c)));
+            [a.cross(b), b.cross(c), c.cross(a)].map(|normal| normal.normalize() * inward)
+        }
+    }
+}
+
+/// The part of a convex polygon that no plane has on its back.
+fn within(polygon: &[DVec3], sides: [DVec3; 3], tolerance: f64) -> Vec<DVec3> {
+    let (mut part, mut halves) = (polygon.to_vec(), Halves::default());
+    for normal in sides {
+        if part.is_empty() {
+            break;
+        }
+        halves.cut(&part, normal, tolerance);
+        part.clone_from(&halves.front);
+    }
+    part
 }
 
 /// The two numbers that fall on y: the share of solid angle before it, and the share along what is left.

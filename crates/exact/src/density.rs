@@ -1,5 +1,6 @@
 //! The densities of techniques at points of the lights.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -13,6 +14,7 @@ use crate::reflected::Reflected;
 use crate::seen::Seen;
 use crate::sight::Sight;
 use crate::value::EPSILON;
+use crate::visible::Pieces;
 
 /// The density of a technique over what x sees, and the probability of seeing nothing.
 pub struct Density {
@@ -109,6 +111,19 @@ impl Density {
                 Measure::BilinearCosine(bilinear) => bilinear[index].at(y) * seen.facet.s / (r2 * r2.sqrt()),
                 Measure::Surface(reflected) => reflected.own_density(seen, y),
             }
+    }
+
+    /// Whether points of a facet are drawn.
+    pub fn reaches(&self, index: usize) -> bool {
+        self.shares.per_measure[index] > 0.0
+    }
+
+    /// What x sees of a facet, in pieces on which the density is smooth, where those are smaller than the facet's.
+    pub fn cut<'s>(&self, index: usize, seen: &'s Seen) -> Option<Cow<'s, Pieces>> {
+        match &self.measure {
+            Measure::BilinearCosine(bilinear) => Some(bilinear[index].cut(seen)),
+            _ => None,
+        }
     }
 
     /// The probability of a sample worth zero, and a bound of its error.

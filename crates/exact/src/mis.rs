@@ -2,6 +2,8 @@
 //!
 //! Densities, integrands and values are per area at a point y of a light: F = L g with g = cosθ_x cosθ_y/r², q_k = n_k p_k.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use twoforms_estimator::strategy::{Team, Weighting};
 use twoforms_estimator::technique::Technique;
@@ -12,6 +14,7 @@ use crate::law::Law;
 use crate::seen::Seen;
 use crate::sight::Sight;
 use crate::spread::{by_cubature, by_rough_cubature};
+use crate::visible::Pieces;
 
 /// Densities below this share of the largest are cut off.
 const CUT: f64 = 0.1;
@@ -37,6 +40,11 @@ impl Members {
     /// n of a member.
     pub fn samples(&self, member: usize) -> f64 {
         self.0[member].1
+    }
+
+    /// What x sees of a facet, in pieces on which all densities are smooth: targets fall into the same pieces for all of them.
+    pub fn cut<'s>(&self, index: usize, seen: &'s Seen) -> Cow<'s, Pieces> {
+        cut(self.0.iter().map(|(density, _)| density), index, seen)
     }
 
     /// The probability that a sample of a member is worth zero, and a bound of its error.
@@ -69,14 +77,15 @@ impl Members {
     fn law(&self, sight: &Sight, weighting: Weighting, i: usize) -> Result<Law, Error> {
         let (hidden, hidden_error) = self.missed(i);
         let mut law = Law { parts: Vec::new(), hidden, hidden_error };
-        for (index, seen) in visible(sight) {
+        for (index, seen) in visible(sight).filter(|&(index, _)| self.0[i].0.reaches(index)) {
             let f = |y: DVec3| {
                 let p = self.densities(index, seen, y);
                 [seen.g(y) * over(weighting, self.expected(p), i), p[i]]
             };
+            let pieces = self.cut(index, seen);
             law.parts.extend(match weighting {
-                Weighting::Balance | Weighting::Power => by_cubature(index, seen, f)?,
-                Weighting::Cutoff | Weighting::Maximum => by_rough_cubature(index, seen, f)?,
+                Weighting::Balance | Weighting::Power => by_cubature(index, seen, &pieces, f)?,
+                Weighting::Cutoff | Weighting::Maximum => by_rough_cubature(index, seen, &pieces, f)?,
                 _ => return Err(Error::NoFormula),
             });
         }
@@ -84,9 +93,12 @@ impl Members {
     }
 }
 
-/// w_i/q_i.
+/// w_i/q_i; zero where nothing is drawn, as on the horizon itself.
 pub fn over(weighting: Weighting, q: [f64; 3], i: usize) -> f64 {
     let most = q.iter().copied().fold(0.0, f64::max);
+    if most <= 0.0 {
+        return 0.0;
+    }
     let sum_from = |bound: f64| q.iter().filter(|&&q| q >= bound).sum::<f64>();
     match weighting {
         Weighting::Power => q[i] / q.iter().map(|q| q * q).sum::<f64>(),
@@ -108,12 +120,18 @@ pub fn mixture(sight: &Sight, share: f64, pair: [Technique; 2]) -> Result<Law, E
     let hidden = mix(one.missed().0, other.missed().0);
     let mut law = Law { parts: Vec::new(), hidden, hidden_error: mix(one.missed().1, other.missed().1) };
     for (index, seen) in visible(sight) {
-        law.parts.extend(by_cubature(index, seen, |y| {
+        let pieces = cut([&one, &other].into_iter(), index, seen);
+        law.parts.extend(by_cubature(index, seen, &pieces, |y| {
             let p = mix(one.per_area(index, seen, y), other.per_area(index, seen, y));
             [seen.g(y) / p, p]
         })?);
     }
     Ok(law)
+}
+
+/// What x sees of a facet, in pieces on which all of some densities are smooth.
+pub fn cut<'d, 's>(mut densities: impl Iterator<Item = &'d Density>, index: usize, seen: &'s Seen) -> Cow<'s, Pieces> {
+    densities.find_map(|density| density.cut(index, seen)).unwrap_or(Cow::Borrowed(&seen.pieces))
 }
 
 /// The facets of which x sees something.

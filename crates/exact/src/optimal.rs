@@ -47,7 +47,7 @@ impl<'s> Optimal<'s> {
                 let of = |k: usize| if k < 9 { p[k / 3] } else { radiance[k / 3 - 3] * g };
                 from_fn::<f64, 21, _>(|k| per_c * p[k % 3] * of(k))
             };
-            let sum = integrate(&seen.pieces, products, |total| total.map(|value| relative * value))?;
+            let sum = integrate(&members.cut(index, seen), products, |total| total.map(|value| relative * value))?;
             for (row, parts) in matrix.iter_mut().chain(&mut b).zip(sum.value.chunks_exact(3)) {
                 row.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
             }
@@ -84,12 +84,14 @@ impl<'s> Optimal<'s> {
                 from_fn::<f64, 4, _>(|channel| {
                     let (alpha, _) = &solved[channel];
                     let rest = radiance[channel] * g - (0..3).map(|k| alpha[k] * p[k]).sum::<f64>();
-                    rest * rest / c
+                    // On the horizon itself nothing arrives, and nothing may be drawn.
+                    if c > 0.0 { rest * rest / c } else { 0.0 }
                 })
             };
             let allowed = |total: &[f64; 4]| from_fn(|k| relative * total[k] + 1e-18 * solved[k].1 * solved[k].1);
-            let sum = integrate(&seen.pieces, residuals, allowed)?;
-            let edges = line_integral(&seen.pieces, residuals);
+            let pieces = self.members.cut(index, seen);
+            let sum = integrate(&pieces, residuals, allowed)?;
+            let edges = line_integral(&pieces, residuals);
             for (k, outcome) in outcomes.iter_mut().enumerate() {
                 let size = (sum.value[k] * (sum.value[k] + outcome.mean * outcome.mean)).sqrt();
                 outcome.variance += sum.value[k];

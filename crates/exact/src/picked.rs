@@ -58,16 +58,19 @@ pub struct Shares {
 /// The shares of a draw: light ℓ with probability q_ℓ, then a point uniform in the draw's measure, T_ℓ in all: q_ℓ/T_ℓ.
 ///
 /// # Errors
-/// [`Error::NeverPicked`] for a light that contributes with q = 0; [`Error::NoTree`].
+/// [`Error::NeverPicked`] for a light that contributes with q = 0, where nothing makes up for it; [`Error::NoTree`].
 pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares, Error> {
     let groups = groups(sight, draw, selection)?;
     let mut shares = Shares { per_measure: Vec::with_capacity(sight.seen.len()), hidden: 0.0, hidden_error: 0.0 };
     for group in &groups {
         shares.hidden += group.pick * if group.whole > 0.0 { group.unlisted / group.whole } else { 1.0 };
     }
+    if groups.iter().all(|group| group.pick <= 0.0) {
+        shares.hidden = 1.0;
+    }
     for (index, seen) in sight.seen.iter().enumerate() {
         let group = &groups[group_of(seen, selection)];
-        if group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
+        if selection.stands_alone() && group.pick <= 0.0 && seen.luminance * seen.moments.m10 > 0.0 {
             return Err(Error::NeverPicked { light: seen.light });
         }
         let share = if group.pick > 0.0 && group.whole > 0.0 { group.pick / group.whole } else { 0.0 };
@@ -81,6 +84,8 @@ pub fn shares(sight: &Sight, draw: Draw, selection: Selection) -> Result<Shares,
         }
         shares.per_measure.push(share);
     }
+    // What lies below zero is rounding.
+    shares.hidden = if shares.hidden < 0.0 { 0.0 } else { shares.hidden };
     shares.hidden_error += 4.0 * EPSILON * shares.hidden;
     Ok(shares)
 }
@@ -145,18 +150,20 @@ fn parts(index: usize, seen: &Seen, draw: Draw, method: Method) -> Result<Vec<Pa
     match (draw, method) {
         (Draw::Uniform, Method::Edges) => Ok(vec![spread::of_area(index, seen)]),
         (Draw::Uniform, Method::Cubature) => {
-            kept.area.get_or_init(|| spread::by_cubature(index, seen, |y| [seen.g(y), 1.0])).clone()
+            let by_cubature = || spread::by_cubature(index, seen, &seen.pieces, |y| [seen.g(y), 1.0]);
+            kept.area.get_or_init(by_cubature).clone()
         }
         (Draw::SolidAngle, Method::Edges) => Ok(vec![spread::of_solid_angle(index, seen)]),
         (Draw::SolidAngle, Method::Cubature) => {
-            let by_cubature = || spread::by_cubature(index, seen, |y| cos_x_and_d_omega(y, seen.facet.s));
+            let f = |y: DVec3| cos_x_and_d_omega(y, seen.facet.s);
+            let by_cubature = || spread::by_cubature(index, seen, &seen.pieces, f);
             kept.solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::ProjectedSolidAngle, _) if seen.glow.is_none() => {
             Ok(vec![spread::of_projected_solid_angle(index, seen)])
         }
         (Draw::ProjectedSolidAngle, _) => {
-            let by_cubature = || spread::by_cubature(index, seen, |y| [1.0, seen.g(y)]);
+            let by_cubature = || spread::by_cubature(index, seen, &seen.pieces, |y| [1.0, seen.g(y)]);
             kept.projected_solid_angle.get_or_init(by_cubature).clone()
         }
         (Draw::BilinearCosine, _) => kept.bilinear.get_or_init(|| by_bilinear_cosine(index, seen)).clone(),
@@ -170,7 +177,7 @@ fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Vec<Part>, Error> {
         let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
         [cos_x / w, w * d_omega]
     };
-    if bilinear.is_smooth() { spread::by_cubature(index, seen, f) } else { spread::by_rough_cubature(index, seen, f) }
+    spread::by_cubature(index, seen, &bilinear.cut(seen), f)
 }
 
 /// cosθ_x = z/r and dω/dA = s/r³.
@@ -261,6 +268,10 @@ fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>,
         Selection::Together | Selection::Uniform => vec![1.0; count],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
         Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+        Selection::Compensated(compensation) => {
+            let given = per_group(&|seen| seen.luminance * seen.open.m10);
+            compensation.weights(&given, &per_group(&|seen| seen.open.m10))
+        }
         Selection::Tree if draw == Draw::Uniform => by_tree,
         Selection::Tree => by_tree.iter().zip(&listed).map(|(&p, &m)| if m > 0.0 { p } else { 0.0 }).collect(),
     };

@@ -4,6 +4,8 @@
 //! With F(y) = L_e f_r G per area and a density p(y) per area, a sample is worth F/p. Of a team of techniques with q_k = n_k p_k,
 //! a sample of technique i is worth F/Σ q_k by the balance heuristic and F q_i/Σ q_k² by the power heuristic.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use twoforms_estimator::glossy::{Glossy, MetallicRoughness};
 use twoforms_estimator::rgb::luminance;
@@ -14,7 +16,7 @@ use crate::cubature::{Manner, Peak, integrate_as};
 use crate::density::Density;
 use crate::error::Error;
 use crate::law::{Colours, Law, Outcome};
-use crate::mis::{Members, over, visible};
+use crate::mis::{self, Members, over, visible};
 use crate::outline::line_integral;
 use crate::seen::Seen;
 use crate::sight::Sight;
@@ -111,7 +113,7 @@ impl Reflected {
     pub(crate) fn missed_by_itself(&self, sight: &Sight) -> Result<(f64, f64), Error> {
         let (mut found, mut error) = (0.0, 4.0 * EPSILON);
         for (index, seen) in visible(sight) {
-            let part = by_cubature_near(index, seen, &self.peak(), |y| [1.0, self.own_density(seen, y)])?;
+            let part = by_cubature_near(index, seen, &seen.pieces, &self.peak(), |y| [1.0, self.own_density(seen, y)])?;
             found += part.mass;
             error += part.mass_error;
         }
@@ -120,7 +122,8 @@ impl Reflected {
 
     fn of_one(&self, sight: &Sight, mixed: &Mixed) -> Result<Value, Error> {
         let p = |index: usize, seen: &Seen, y: DVec3| mixed.per_area(index, seen, y);
-        let laws = self.laws(sight, mixed.missed(), p, |index, seen, y| {
+        let cut = |index, seen| mis::cut(mixed.0.iter().map(|(density, _)| density), index, seen);
+        let laws = self.laws(sight, mixed.missed(), cut, p, |index, seen, y| {
             let p = p(index, seen, y);
             if p == 0.0 { 0.0 } else { 1.0 / p }
         })?;
@@ -133,9 +136,9 @@ impl Reflected {
         let mut sums = [Outcome::default(); CHANNELS];
         for i in 0..members.count() {
             let p = |index: usize, seen: &Seen, y: DVec3| members.densities(index, seen, y)[i];
-            let laws = self.laws(sight, members.missed(i), p, |index, seen, y| {
-                let q = members.expected(members.densities(index, seen, y));
-                if q == [0.0; 3] { 0.0 } else { over(weighting, q, i) }
+            let cut = |index, seen| members.cut(index, seen);
+            let laws = self.laws(sight, members.missed(i), cut, p, |index, seen, y| {
+                over(weighting, members.expected(members.densities(index, seen, y)), i)
             })?;
             for (sum, law) in sums.iter_mut().zip(laws) {
                 sum.add_samples(members.samples(i), &law.outcome(&Colours(vec![[1.0; CHANNELS]; sight.seen.len()]), 0));
@@ -144,19 +147,22 @@ impl Reflected {
         checked(sight, &sums)
     }
 
-    /// The law of one sample in each channel, drawn by `p` and worth F times `per_density` at its point.
-    fn laws(
+    /// The law of one sample in each channel, drawn by `p` and worth F times `per_density` at its point, both smooth on the
+    /// pieces of `cut`.
+    fn laws<'s>(
         &self,
-        sight: &Sight,
+        sight: &'s Sight,
         (hidden, hidden_error): (f64, f64),
+        cut: impl Fn(usize, &'s Seen) -> Cow<'s, Pieces>,
         p: impl Fn(usize, &Seen, DVec3) -> f64,
         per_density: impl Fn(usize, &Seen, DVec3) -> f64,
     ) -> Result<[Law; CHANNELS], Error> {
         let mut laws = [(); CHANNELS].map(|()| Law { parts: Vec::new(), hidden, hidden_error });
         for (index, seen) in visible(sight) {
+            let pieces = cut(index, seen);
             for (channel, law) in laws.iter_mut().enumerate() {
                 let f = |y: DVec3| [self.integrand(seen, y)[channel] * per_density(index, seen, y), p(index, seen, y)];
-                law.parts.push(by_cubature_near(index, seen, &self.peak(), f)?);
+                law.parts.push(by_cubature_near(index, seen, &pieces, &self.peak(), f)?);
             }
         }
         Ok(laws)

@@ -13,14 +13,19 @@ use crate::seen::Seen;
 use crate::value::EPSILON;
 use crate::visible::Pieces;
 
-/// ∫ w dA, the mean of u under w dA, and ∫ (u − mean)² w dA over the visible part, where `f` gives
+/// ∫ w dA, the mean of u under w dA, and ∫ (u − mean)² w dA over the visible part, in pieces on which both are smooth, where `f` gives
 /// \[u, w\] at a point y of the light. Centred, so that a nearly constant u keeps the digits of its
 /// spread. Where the facet emits by a texture, u times the radiance in each channel.
 ///
 /// # Errors
 /// [`Error::NotConverged`]; [`Error::TooManyTexels`].
-pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
-    within(index, seen, Manner::Smooth, f)
+pub fn by_cubature(
+    index: usize,
+    seen: &Seen,
+    pieces: &Pieces,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Vec<Part>, Error> {
+    within(index, seen, pieces, Manner::Smooth, f)
 }
 
 /// The same to a thousandth, where u or w jump across a curve: cells along it are halved until what they leave is that small, and
@@ -28,22 +33,33 @@ pub fn by_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> 
 ///
 /// # Errors
 /// [`Error::NotConverged`]; [`Error::TooManyTexels`].
-pub fn by_rough_cubature(index: usize, seen: &Seen, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+pub fn by_rough_cubature(
+    index: usize,
+    seen: &Seen,
+    pieces: &Pieces,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Vec<Part>, Error> {
     let may_miss = |part: Part| Part {
         mass_error: part.mass_error + MISSED * part.mass,
         mean_error: part.mean_error + MISSED * part.mean.abs(),
         spread_error: part.spread_error + MISSED * part.spread,
         ..part
     };
-    Ok(within(index, seen, Manner::Jumping, f)?.into_iter().map(may_miss).collect())
+    Ok(within(index, seen, pieces, Manner::Jumping, f)?.into_iter().map(may_miss).collect())
 }
 
 /// The same of one function, radiance in it, that may have a peak.
 ///
 /// # Errors
 /// [`Error::NotConverged`].
-pub fn by_cubature_near(index: usize, seen: &Seen, peak: &Peak, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    of_function(index, seen, Manner::Peaked(peak), f)
+pub fn by_cubature_near(
+    index: usize,
+    seen: &Seen,
+    pieces: &Pieces,
+    peak: &Peak,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Part, Error> {
+    of_function(index, seen, pieces, Manner::Peaked(peak), f)
 }
 
 /// u = L g Φ/Y under Y dA/Φ, with Y the luminance times sides that the cell of y emits and Φ that of all lights.
@@ -71,19 +87,31 @@ fn fineness(manner: Manner) -> [f64; 2] {
     if let Manner::Jumping = manner { ROUGH } else { FINE }
 }
 
-fn within(index: usize, seen: &Seen, manner: Manner, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Vec<Part>, Error> {
+fn within(
+    index: usize,
+    seen: &Seen,
+    pieces: &Pieces,
+    manner: Manner,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Vec<Part>, Error> {
     let Some(glow) = &seen.glow else {
-        return Ok(vec![of_function(index, seen, manner, f)?]);
+        return Ok(vec![of_function(index, seen, pieces, manner, f)?]);
     };
     let in_channels = |y: DVec3| {
         let [u, w] = f(y);
         (glow.at(y).map(|radiance| radiance * u), w)
     };
-    of_channels(index, seen, &seen.pieces, manner, in_channels)
+    of_channels(index, seen, pieces, manner, in_channels)
 }
 
-fn of_function(index: usize, seen: &Seen, manner: Manner, f: impl Fn(DVec3) -> [f64; 2]) -> Result<Part, Error> {
-    let [mass, first] = guess(&seen.pieces, |y| {
+fn of_function(
+    index: usize,
+    seen: &Seen,
+    pieces: &Pieces,
+    manner: Manner,
+    f: impl Fn(DVec3) -> [f64; 2],
+) -> Result<Part, Error> {
+    let [mass, first] = guess(pieces, |y| {
         let [u, w] = f(y);
         [w, u * w]
     });
@@ -96,11 +124,11 @@ fn of_function(index: usize, seen: &Seen, manner: Manner, f: impl Fn(DVec3) -> [
     // Beside a peak f itself is rounded by as much as the coordinates' rounding leaves.
     let (steepness, gain) = if let Manner::Peaked(peak) = manner { (peak.steepness(), 10.0) } else { (1.0, 1.0) };
     let (slack, fine) = (seen.slack() * steepness, fineness(manner));
-    let sum = integrate_as(&seen.pieces, manner, about_centre, |&[mass, _, second]| {
+    let sum = integrate_as(pieces, manner, about_centre, |&[mass, _, second]| {
         let [first, second] = allowed(centre, mass, second, relative(fine[1], gain * slack));
         [relative(fine[0], gain * slack) * mass, first, second]
     })?;
-    let edges = line_integral(&seen.pieces, about_centre);
+    let edges = line_integral(pieces, about_centre);
     let outline: [f64; 3] = from_fn(|k| sum.error[k] + edges[k] * seen.moments.shift);
     Ok(Part { seen: index, ..part(centre, sum.value, outline, slack) })
 }

@@ -19,6 +19,7 @@
 //! | `efficiency` | 1 / (`variance_of_mean` × `seconds`) |
 //! | `irradiance_known`, `irradiance_exact` | the scene's answer and the exact value, luminance |
 //! | `setup_seconds` | CPU time to prepare the receiver, once for all its lines |
+//! | `strategy_setup_rays`, `strategy_setup_seconds` | what the strategy works out at the receiver, once for all its replicates |
 
 use std::io::{self, Write};
 
@@ -29,7 +30,7 @@ use crate::document::Document;
 use crate::error::ReportError;
 
 /// The header.
-pub const COLUMNS: [&str; 32] = [
+pub const COLUMNS: [&str; 34] = [
     "receiver",
     "x",
     "y",
@@ -62,6 +63,8 @@ pub const COLUMNS: [&str; 32] = [
     "irradiance_known",
     "irradiance_exact",
     "setup_seconds",
+    "strategy_setup_rays",
+    "strategy_setup_seconds",
 ];
 
 /// Writes `document` as CSV.
@@ -98,7 +101,7 @@ fn record(receiver: &ReceiverResult, row: &Row) -> Vec<String> {
 }
 
 /// The numbers from `mean_luminance` on; NaN where there is no value.
-fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 18] {
+fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 20] {
     let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let [variance_lo, variance_hi] = row.variance_interval.unwrap_or([f64::NAN; 2]);
     let [ratio_lo, ratio_hi] = row.variance_ratio_interval.unwrap_or([f64::NAN; 2]);
@@ -121,6 +124,8 @@ fn figures(receiver: &ReceiverResult, row: &Row) -> [f64; 18] {
         or_nan(receiver.known.as_ref().map(|known| known.irradiance.luminance)),
         or_nan(receiver.exact.map(|exact| exact.irradiance.luminance)),
         receiver.setup_seconds,
+        row.setup_rays as f64,
+        row.setup_seconds,
     ]
 }
 

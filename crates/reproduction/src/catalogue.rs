@@ -24,6 +24,7 @@ const SCENES: &[(&str, &[u8])] = files!(
     "cornell-box.gltf",
     "cornell-box-empty.gltf",
     "furnace.gltf",
+    "lamp-and-ceiling.gltf",
     "nori-light-1.gltf",
     "nori-light-2.gltf",
     "nori-light-3.gltf",

@@ -11,14 +11,18 @@ mod run;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
 use command::compare::Found;
 
-/// 0: done · 1: the input or the run failed · 2: wrong usage (chosen by clap) · 3: a check found a biased estimator, or a reproduction that differs.
+/// 0: done · 1: the input or the run failed · 2: wrong usage, as clap has it · 3: a check found a biased estimator, or a reproduction that differs.
 fn main() -> ExitCode {
     let args = Args::parse();
+    if let Some((command, why)) = args.command.misuse() {
+        misused(command, why);
+    }
     let nothing = |()| Found::Nothing;
     let done = match &args.command {
         Command::Compare(compare) => command::compare::run(compare),
@@ -37,4 +41,12 @@ fn main() -> ExitCode {
             ExitCode::from(1)
         }
     }
+}
+
+/// Ends the program as a wrong word does.
+fn misused(command: &str, why: &str) -> ! {
+    let mut all = Args::command();
+    all.build();
+    let command = all.find_subcommand_mut(command).map_or_else(Args::command, |command| command.clone());
+    command.clone().error(ErrorKind::ArgumentConflict, why).exit()
 }

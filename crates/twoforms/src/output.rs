@@ -1,21 +1,67 @@
 //! Standard output and result files.
 
 use std::io::{self, BufWriter, ErrorKind, Write};
+use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
-use twoforms_report::{Detail, Document, ReportError, csv, file, json, table};
+use twoforms_report::{Detail, Document, ExactDocument, ReportError, csv, file, json, table};
 
 use crate::args::Format;
 
-/// Where the results of `compare` go. Made before anything is computed, so that a place that can't be written to is
+/// Results in each format.
+pub trait Printed {
+    /// What their files in a folder are called, without the ending.
+    const NAME: &'static str;
+    /// One document for scripts.
+    fn json(&self, out: &mut dyn Write) -> Result<(), ReportError>;
+    /// Lines for scripts.
+    fn csv(&self, out: &mut dyn Write) -> Result<(), ReportError>;
+    /// For people.
+    fn table(&self) -> String;
+}
+
+impl Printed for Document {
+    const NAME: &'static str = "compare";
+
+    fn json(&self, out: &mut dyn Write) -> Result<(), ReportError> {
+        json::write(self, out)
+    }
+
+    fn csv(&self, out: &mut dyn Write) -> Result<(), ReportError> {
+        csv::write(self, out)
+    }
+
+    fn table(&self) -> String {
+        table::text(self, Detail::for_receivers(self.receivers().len()))
+    }
+}
+
+impl Printed for ExactDocument {
+    const NAME: &'static str = "exact";
+
+    fn json(&self, out: &mut dyn Write) -> Result<(), ReportError> {
+        self.write_json(out)
+    }
+
+    fn csv(&self, out: &mut dyn Write) -> Result<(), ReportError> {
+        self.write_csv(out)
+    }
+
+    fn table(&self) -> String {
+        self.text()
+    }
+}
+
+/// Where results go: one [`Printed`] of a kind. Made before anything is computed, so that a place that can't be written to is
 /// known at once and nothing that was computed is lost.
-pub struct Destination<'a> {
+pub struct Destination<'a, P> {
     format: Format,
     output: Option<&'a Path>,
     folder: Option<&'a Path>,
+    what: PhantomData<P>,
 }
 
-impl<'a> Destination<'a> {
+impl<'a, P: Printed> Destination<'a, P> {
     /// Tries every place that will be written to.
     pub fn new(format: Format, output: Option<&'a Path>, folder: Option<&'a Path>) -> Result<Self, ReportError> {
         if let Some(path) = output {
@@ -23,32 +69,25 @@ impl<'a> Destination<'a> {
         }
         if let Some(folder) = folder {
             file::make_folder(folder)?;
-            for path in in_folder(folder) {
+            for path in in_folder::<P>(folder) {
                 file::check(&path)?;
             }
         }
-        Ok(Self { format, output, folder })
+        Ok(Self { format, output, folder, what: PhantomData })
     }
 
     /// Writes the folder, then the file or standard output.
-    pub fn write(&self, document: &Document) -> Result<(), ReportError> {
+    pub fn write(&self, results: &P) -> Result<(), ReportError> {
         if let Some(folder) = self.folder {
-            let [json_path, csv_path] = in_folder(folder);
-            file::save(&json_path, |out| json::write(document, out))?;
-            file::save(&csv_path, |out| csv::write(document, out))?;
+            let [json_path, csv_path] = in_folder::<P>(folder);
+            file::save(&json_path, |out| results.json(out))?;
+            file::save(&csv_path, |out| results.csv(out))?;
         }
-        write_to(self.output, |out| self.print(document, out))
-    }
-
-    fn print(&self, document: &Document, mut out: &mut dyn Write) -> Result<(), ReportError> {
-        match self.format {
-            Format::Json => json::write(document, &mut out),
-            Format::Csv => csv::write(document, &mut out),
-            Format::Table => {
-                let detail = Detail::for_receivers(document.receivers().len());
-                Ok(out.write_all(table::text(document, detail).as_bytes())?)
-            }
-        }
+        write_to(self.output, |out| match self.format {
+            Format::Json => results.json(out),
+            Format::Csv => results.csv(out),
+            Format::Table => Ok(out.write_all(results.table().as_bytes())?),
+        })
     }
 }
 
@@ -65,8 +104,8 @@ pub fn write_to(
     Ok(out.flush()?)
 }
 
-fn in_folder(folder: &Path) -> [PathBuf; 2] {
-    [folder.join("compare.json"), folder.join("compare.csv")]
+fn in_folder<P: Printed>(folder: &Path) -> [PathBuf; 2] {
+    ["json", "csv"].map(|ending| folder.join(P::NAME).with_extension(ending))
 }
 
 /// Prints to standard output.

@@ -11,6 +11,7 @@ mod four_colours;
 mod furnace;
 mod gltf;
 mod json;
+mod lamp_and_ceiling;
 mod material;
 mod moments;
 mod nori;
@@ -74,6 +75,7 @@ impl Scene {
 pub fn all() -> Vec<Scene> {
     let mut scenes = vec![cornell::with_blocks(), cornell::empty(), square_light::scene()];
     scenes.extend(nori::scenes());
-    scenes.extend([two_lights::scene(), furnace::scene(), tiny_far_light::scene(), four_colours::scene()]);
+    scenes.extend([two_lights::scene(), lamp_and_ceiling::scene()]);
+    scenes.extend([furnace::scene(), tiny_far_light::scene(), four_colours::scene()]);
     scenes
 }

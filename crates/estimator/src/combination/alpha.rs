@@ -63,9 +63,9 @@ impl Sums {
 }
 
 impl Mis<'_> {
-    /// α of each technique, RGB, from so many samples of the team, drawn by this key.
-    pub(crate) fn pilot(&self, view: &View, samples: u32, key: Key) -> Vec<[f32; 3]> {
-        let (from, mut sums) = (view.from_x::<f32>(), Sums::default());
+    /// The same with α of each technique, RGB, from so many samples of the team, drawn by this key.
+    pub(crate) fn pilot(self, view: &View, samples: u32, key: Key) -> Self {
+        let (from, mut sums, mut rays) = (view.from_x::<f32>(), Sums::default(), 0);
         let stream =
             Stream { sampler: Sampler::Independent, draws: Draws { key, stream: [samples, PILOT] }, n: samples };
         for index in 0..samples {
@@ -75,6 +75,7 @@ impl Mis<'_> {
                 for _ in 0..*n {
                     let found = technique.find(&from, numbers.from(0).xi(pair));
                     pair += 1;
+                    rays += u64::from(found.asked.count());
                     if !found.seen.any() {
                         sums.miss(i, f64::from(*n));
                         continue;
@@ -89,7 +90,8 @@ impl Mis<'_> {
             }
         }
         let channels = sums.b.map(|b| alpha(sums.a, b));
-        (0..self.team.len()).map(|k| channels.map(|alpha| alpha[k] as f32)).collect()
+        let alpha = (0..self.team.len()).map(|k| channels.map(|alpha| alpha[k] as f32)).collect();
+        Self { alpha, setup_rays: rays, ..self }
     }
 }
 

@@ -25,6 +25,8 @@ pub(crate) struct Mis<'a> {
     pub(crate) weighting: Weighting,
     /// α_i of each technique, RGB, where the weights are optimal.
     pub(crate) alpha: Vec<[f32; 3]>,
+    /// Rays of pilot samples.
+    pub(crate) setup_rays: u64,
 }
 
 impl Primary for Mis<'_> {
@@ -38,6 +40,10 @@ impl Primary for Mis<'_> {
 
     fn pairs(&self) -> usize {
         self.pairs
+    }
+
+    fn setup_rays(&self) -> u64 {
+        self.setup_rays
     }
 
     #[inline(always)]

@@ -3,19 +3,17 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use twoforms_geometry::real::{Real, Word};
+use twoforms_geometry::real::Real;
 use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::{Vantage, View};
 
 use super::Ready;
 use super::lights::{OnLights, Picking, Spread};
+use crate::alone;
 use crate::lights::Lights;
 use crate::measure::SurfaceArea;
 use crate::query::Query;
 use crate::selection::{Picker, Piece, Selection};
-
-/// Samples that lie side by side, at most.
-const LANES: usize = 16;
 
 /// Emitted luminance: Y(y) dA times the sides that emit, Y being the mean luminance over the cell of y. A target that emits
 /// by a texture falls into cells of equal area, half a texel long where these are not too many, any other is one cell.
@@ -75,21 +73,15 @@ impl ByLuminance<'_> {
         cells.value(pattern.coordinates(y)) as f32
     }
 
+    /// The same of a sample by itself.
     #[cold]
     #[inline(never)]
-    fn values<R: Real>(self, from: Vantage<R>, y: SurfacePoint<R>) -> R {
+    fn looked_up<R: Real>(self, from: Vantage<R>, y: SurfacePoint<R>) -> R {
         R::apart(
             #[inline(always)]
             || {
-                let (mut at, mut targets, mut values) = ([[0.0; LANES]; 3], [0; LANES], [0.0; LANES]);
-                for (axis, coordinate) in at.iter_mut().zip(from.from_x(y.position).to_array()) {
-                    coordinate.store(axis);
-                }
-                y.target.store(&mut targets);
-                for k in 0..R::LANES {
-                    values[k] = self.value(from.view(), targets[k], [at[0][k], at[1][k], at[2][k]]);
-                }
-                R::load(&values)
+                let at = alone::coordinates(from.from_x(y.position));
+                R::splat(self.value(from.view(), alone::word::<R>(y.target), at))
             },
         )
     }
@@ -115,7 +107,7 @@ impl Spread for ByLuminance<'_> {
     #[inline(always)]
     fn per_area<R: Real>(&self, from: &Vantage<R>, y: &SurfacePoint<R>) -> R {
         if R::LANES == 1 && self.lights.are_textured() {
-            return self.values(*from, *y);
+            return self.looked_up(*from, *y);
         }
         let [value] = R::gather(
             y.target,

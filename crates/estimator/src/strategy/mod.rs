@@ -17,11 +17,11 @@ use crate::technique::{Kind, Technique};
 /// A technique or a combination of some, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strategy {
-    /// `formulation/density[@selection]`: one technique.
+    /// `formulation/density[@selection]`: one technique, whose selection must stand alone.
     Single(Technique),
     /// `mis/…`: a sample or more of each technique of a team, weighted.
     Mis(Weighting, Team),
-    /// `mixture/A`: one sample from A · the first technique + (1 − A) · the second, 0 <= A <= 1.
+    /// `mixture/A`: one sample from A · the first technique + (1 − A) · the second, 0 <= A <= 1, whose selections must stand alone.
     Mixture(f64, [Technique; 2]),
     /// `ris/M`: one of M candidates of `area/uniform`, resampled by what they would contribute unhidden.
     Resampled(u32),
@@ -42,8 +42,10 @@ impl Strategy {
 
     /// All strategies: every technique, and of the combinations, whose names are without number, those of the default teams.
     pub fn all() -> Vec<Self> {
-        let mut all: Vec<Self> = Technique::all().into_iter().map(Self::Single).collect();
+        let alone = Technique::all().into_iter().filter(|technique| technique.selection.stands_alone());
+        let mut all: Vec<Self> = alone.map(Self::Single).collect();
         all.extend(Weighting::ALL.map(|weighting| Self::Mis(weighting, Team::default())));
+        all.push(Self::Mis(Weighting::Balance, Team::compensated()));
         all.extend([0.1, 0.5].map(|share| Self::Mixture(share, Self::PAIR)));
         all.extend([Self::Resampled(8), Self::Ratio, Self::ControlVariate]);
         all

@@ -70,7 +70,7 @@ fn read(name: &str) -> Result<Strategy, String> {
     match head {
         RATIO => Ok(Strategy::Ratio),
         CONTROL => Ok(Strategy::ControlVariate),
-        _ => technique(head).map(Strategy::Single),
+        _ => alone(head).map(Strategy::Single),
     }
 }
 
@@ -93,6 +93,18 @@ fn technique(name: &str) -> Result<Technique, String> {
     name.parse().map_err(|()| unknown(name))
 }
 
+/// A technique that no other need stand beside.
+fn alone(name: &str) -> Result<Technique, String> {
+    let technique = technique(name)?;
+    if technique.selection.stands_alone() {
+        return Ok(technique);
+    }
+    Err(format!(
+        "it never picks a light of which hemisphere/cosine gives enough, and would be biased without it: take \
+         {MIS}balance({technique},hemisphere/cosine)"
+    ))
+}
+
 fn members(inside: &str) -> Result<Vec<Member>, String> {
     let member = |part: &str| {
         let (name, samples) = part.split_once(':').unwrap_or((part, "1"));
@@ -103,7 +115,7 @@ fn members(inside: &str) -> Result<Vec<Member>, String> {
 }
 
 fn pair(inside: &str) -> Result<[Technique; 2], String> {
-    let two: Vec<Technique> = inside.split(',').map(|name| technique(name.trim())).collect::<Result<_, _>>()?;
+    let two: Vec<Technique> = inside.split(',').map(|name| alone(name.trim())).collect::<Result<_, _>>()?;
     let [one, other] = two[..] else { return Err(format!("a mixture is of two techniques, not {}", two.len())) };
     if one == other { Err(format!("\"{one}\" is named twice")) } else { Ok([one, other]) }
 }
@@ -128,6 +140,7 @@ mod tests {
             "ris/32",
             "mis/optimal-pilot/256",
             "mis/optimal-pilot/16(area/solid-angle,hemisphere/cosine:2)",
+            "mis/power(hemisphere/cosine:3,area/solid-angle@compensated:2)",
         ];
         let names = Strategy::all().into_iter().map(|strategy| strategy.to_string());
         for name in names.chain(more.map(str::to_owned)) {
@@ -154,6 +167,11 @@ mod tests {
             ("ris/0", "candidates"),
             ("mis/optimal-pilot/0", "pilot samples"),
             ("area/uniform(hemisphere/cosine)", "brackets"),
+            ("area/uniform@compensated", "mis/balance(area/uniform@compensated,hemisphere/cosine)"),
+            ("mixture/0.5(area/uniform@compensated,hemisphere/cosine)", "biased without it"),
+            ("mis/balance(area/uniform@compensated,hemisphere/uniform)", "what hemisphere/cosine leaves"),
+            ("mis/balance(area/uniform@compensated,hemisphere/cosine,hemisphere/uniform)", "a team of two"),
+            ("mis/balance(area/uniform@compensated,area/solid-angle@compensated)", "what hemisphere/cosine leaves"),
         ] {
             let error = name.parse::<Strategy>().map_err(|unknown| unknown.to_string());
             assert!(error.as_ref().is_err_and(|error| error.contains(reason)), "{name}: {error:?}");

@@ -108,10 +108,8 @@ impl Prepared {
     }
 
     /// The strategy's estimator at x. An α that should be known and is not is zero, which leaves the weights of the balance
-    /// heuristic.
-    ///
-    /// # Panics
-    /// When the strategy needs what x would receive were nothing in between, and neither a closed form nor `known` has it.
+    /// heuristic. Where the strategy needs what x would receive were nothing in between, and neither a closed form nor `known`
+    /// has it, no estimate is a number.
     pub fn at<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Box<dyn Estimator + 'a> {
         let at = |k: usize| self.techniques[k].at(view, query);
         let pairs = self.strategy.pairs();
@@ -119,13 +117,14 @@ impl Prepared {
             Strategy::Single(_) => self.techniques[0].boxed(view, query),
             Strategy::Mis(weighting, team) => {
                 let locals = team.members().enumerate().map(|(k, member)| (at(k), member.samples)).collect();
-                let mis = Mis { view, query, team: locals, pairs, weighting, alpha: Vec::new() };
-                let alpha = match weighting {
-                    Weighting::Optimal => known.alpha(team).map_or_else(|| vec![[0.0; 3]; MOST], rounded),
+                let mis = Mis { view, query, team: locals, pairs, weighting, alpha: Vec::new(), setup_rays: 0 };
+                Box::new(match weighting {
+                    Weighting::Optimal => {
+                        Mis { alpha: known.alpha(team).map_or_else(|| vec![[0.0; 3]; MOST], rounded), ..mis }
+                    }
                     Weighting::Pilot(samples) => mis.pilot(view, samples, known.key),
-                    _ => Vec::new(),
-                };
-                Box::new(Mis { alpha, ..mis })
+                    _ => mis,
+                })
             }
             Strategy::Mixture(share, _) => {
                 Box::new(Mixture { view, query, pair: [at(0), at(1)], split: Split::new(share) })
@@ -143,8 +142,7 @@ impl Prepared {
     }
 
     fn shadow<'a>(&'a self, view: &'a View<'a>, query: &'a Query<'a>, known: &Known) -> Shadow<'a> {
-        let unoccluded = query.unoccluded(view).or(known.unoccluded);
-        let unoccluded = unoccluded.expect("what x would receive were nothing in between");
+        let unoccluded = query.unoccluded(view).or(known.unoccluded).unwrap_or([f64::NAN; 3]);
         Shadow { view, query, density: self.points(view, query), unoccluded }
     }
 }

@@ -3,6 +3,8 @@
 use std::fmt;
 
 use super::{AREA, COSINE};
+use crate::compensation::Compensation;
+use crate::selection::Selection;
 use crate::technique::Technique;
 
 /// Most techniques of a team.
@@ -35,10 +37,17 @@ impl Default for Team {
 }
 
 impl Team {
-    /// A team of these members.
+    /// `area/uniform@compensated` with `hemisphere/cosine`, one sample of each.
+    pub(super) fn compensated() -> Self {
+        let Self { first: [area, cosine], third } = Self::default();
+        let selection = Selection::Compensated(Compensation::default());
+        Self { first: [Member { technique: Technique { selection, ..area.technique }, ..area }, cosine], third }
+    }
+
+    /// A team of these members. A selection that compensates for the cosine learns how many samples there are of each.
     ///
     /// # Errors
-    /// Why they are none: too few or too many, one of them twice, or no samples.
+    /// Why they are none: too few or too many, one of them twice, no samples, or a selection that needs another team.
     pub fn new(members: &[Member]) -> Result<Self, String> {
         let twice = |k: usize| members[..k].iter().any(|other| other.technique == members[k].technique);
         if let Some(k) = (0..members.len()).find(|&k| twice(k)) {
@@ -48,7 +57,8 @@ impl Team {
             return Err(format!("\"{}\" needs 1 to {MOST_SAMPLES} samples", member.technique));
         }
         match *members {
-            [one, two] => Ok(Self { first: [one, two], third: None }),
+            [one, two] => Ok(Self { first: [beside(one, two)?, beside(two, one)?], third: None }),
+            [..] if members.iter().any(|member| !member.technique.selection.stands_alone()) => Err(COSINE_ALONE.into()),
             [one, two, three] => Ok(Self { first: [one, two], third: Some(three) }),
             _ => Err(format!("{} technique(s) named where two or three are weighted together", members.len())),
         }
@@ -57,6 +67,23 @@ impl Team {
     /// The members in order.
     pub fn members(&self) -> impl Iterator<Item = Member> + use<> {
         self.first.into_iter().chain(self.third)
+    }
+}
+
+/// What a selection that compensates needs.
+const COSINE_ALONE: &str = "\"@compensated\" picks what hemisphere/cosine leaves of each light: it needs a team of two, \
+                            as in mis/balance(area/uniform@compensated,hemisphere/cosine)";
+
+/// A member as it is in a team of two.
+fn beside(member: Member, other: Member) -> Result<Member, String> {
+    match member.technique.selection {
+        Selection::Compensated(_) if other.technique == COSINE => {
+            let [own, cosine] = [member, other].map(|member| member.samples as u8); // at most [`MOST_SAMPLES`]
+            let selection = Selection::Compensated(Compensation { own, cosine });
+            Ok(Member { technique: Technique { selection, ..member.technique }, ..member })
+        }
+        Selection::Compensated(_) => Err(COSINE_ALONE.into()),
+        _ => Ok(member),
     }
 }
 

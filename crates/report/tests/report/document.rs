@@ -51,6 +51,7 @@ fn json_rows_verdicts_and_rates_have_the_fields_of_the_schema() {
     for field in ["variance_exact", "variance_ratio", "variance_ratio_interval", "variance_of_one", "rays", "seconds"] {
         assert!(row.contains(&field), "{field}");
     }
+    assert!(row.contains(&"setup_rays") && row.contains(&"setup_seconds"));
     let verdict = keys(&receiver["verdicts"][0]);
     for field in ["strategy", "sampler", "difference", "interval", "level", "margin", "arithmetic_budget"] {
         assert!(verdict.contains(&field), "{field}");
@@ -100,6 +101,7 @@ fn the_hash_covers_results_alone() {
     assert_eq!(same.len(), 64);
     assert_eq!(same, hash(|receiver| receiver.rows[0].seconds = 1.0));
     assert_eq!(same, hash(|receiver| receiver.setup_seconds = 0.0));
+    assert_eq!(same, hash(|receiver| receiver.rows[1].setup_seconds = 2.0));
     assert_eq!(
         same,
         hash(|receiver| {
@@ -144,6 +146,8 @@ fn csv_numbers_read_back_to_the_same_bits() {
         assert_eq!([cell(i + 1, "rays"), cell(i + 1, "seconds")], [row.rays, row.seconds]);
         assert_eq!(Some(cell(i + 1, "efficiency")), row.efficiency);
         assert_eq!(cell(i + 1, "setup_seconds"), receiver.setup_seconds);
+        let of_strategy = ["strategy_setup_rays", "strategy_setup_seconds"].map(|name| cell(i + 1, name));
+        assert_eq!(of_strategy, [row.setup_rays as f64, row.setup_seconds]);
         let same = |name: &str, value: Option<f64>| match value {
             Some(value) => assert_eq!(cell(i + 1, name), value),
             None => assert!(cell(i + 1, name).is_nan(), "{name}"),

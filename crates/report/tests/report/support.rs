@@ -42,6 +42,8 @@ pub fn row(strategy: &str, samples: u64, mean: f64, variance: f64) -> Row {
         chebyshev: Some(Chebyshev { delta: 0.1, bound: (of_mean / 0.1).sqrt(), outside: 0.003, about: "mean" }),
         rays: samples as f64,
         seconds: samples as f64 * if strategy.starts_with("area") { 2.6e-8 } else { 2e-8 },
+        setup_rays: 0,
+        setup_seconds: samples as f64 * 1e-9,
         efficiency: (variance > 0.0).then(|| 1.0 / (of_mean * samples as f64 * 2e-8)),
         why: Why::new(),
     }

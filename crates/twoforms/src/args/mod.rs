@@ -126,6 +126,37 @@ pub struct PlacesArgs {
     pub camera: CameraArgs,
 }
 
+impl PlacesArgs {
+    /// Why some of it means nothing beside the rest, if that is so.
+    pub fn misuse(&self) -> Option<&'static str> {
+        let irradiance = self.quantity == QuantityArg::Irradiance;
+        if irradiance && self.receivers.albedo.is_some() {
+            return Some("--albedo is for --quantity radiance: irradiance does not depend on a surface");
+        }
+        if irradiance && self.lambert {
+            return Some("--lambert is for --quantity radiance: irradiance does not depend on a surface");
+        }
+        let sized = self.camera.width.is_some() || self.camera.height.is_some();
+        if sized && self.receivers.pixel.is_empty() && self.receivers.grid.is_none() {
+            return Some(
+                "--width and --height are of the image that --pixel and --grid look through: pass one of these",
+            );
+        }
+        None
+    }
+}
+
+impl Command {
+    /// The command's word, and why options of it mean nothing together, if that is so.
+    pub fn misuse(&self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Self::Compare(args) => Some(("compare", args.places.misuse()?)),
+            Self::Exact(args) => Some(("exact", args.places.misuse()?)),
+            _ => None,
+        }
+    }
+}
+
 /// When a bias is found.
 #[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Verdicts")]
@@ -180,6 +211,9 @@ pub struct ExactArgs {
     /// How to print.
     #[command(flatten)]
     pub print: PrintArgs,
+    /// Also write exact.json and exact.csv into this folder
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    pub out: Option<PathBuf>,
 }
 
 /// `compare`.

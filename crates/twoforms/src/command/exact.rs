@@ -6,11 +6,12 @@ use anyhow::Result;
 use twoforms_comparison::exactly::exactly;
 use twoforms_comparison::exactly::with_formula;
 use twoforms_comparison::swept::{default_strategies, swept};
-use twoforms_report::{ExactDocument, ReportError, file};
+use twoforms_report::ExactDocument;
 
-use crate::args::{ExactArgs, Format};
+use crate::args::ExactArgs;
+use crate::output::Destination;
 use crate::places::Stay;
-use crate::{output, places, progress, run};
+use crate::{places, progress, run};
 
 /// Works out, and prints.
 pub fn run(args: &ExactArgs) -> Result<()> {
@@ -19,9 +20,7 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     let world = run::load(&args.scene, &args.run)?;
     let stay = if args.sweep.is_some() { Stay::Moving } else { Stay::Put };
     let places = places::places(&world, &args.places, &args.run, stay)?;
-    if let Some(path) = &args.print.output {
-        file::check(path)?;
-    }
+    let destination = Destination::new(args.print.format, args.print.output.as_deref(), args.out.as_deref())?;
     let strategies = args.strategies.as_ref().map(|list| list.0.clone());
     let steps = args.sweep.map_or(1, |sweep| sweep.steps());
     let bar = progress::bar(places.len() as u64 * u64::from(steps), "receivers", &args.run);
@@ -33,14 +32,5 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     bar.finish_and_clear();
     let quantity = args.places.quantity.name();
     let provenance = run::provenance(&world.scene, &args.run, started).with("quantity", quantity);
-    let document = ExactDocument::new(provenance, results)?;
-    Ok(output::write_to(args.print.output.as_deref(), |out| print(&document, args.print.format, out))?)
-}
-
-fn print(document: &ExactDocument, format: Format, out: &mut dyn std::io::Write) -> Result<(), ReportError> {
-    match format {
-        Format::Json => document.write_json(out),
-        Format::Csv => document.write_csv(out),
-        Format::Table => Ok(out.write_all(document.text().as_bytes())?),
-    }
+    Ok(destination.write(&ExactDocument::new(provenance, results)?)?)
 }

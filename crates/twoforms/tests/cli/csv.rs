@@ -7,7 +7,7 @@ const HEADER: &str = "receiver,x,y,z,n_x,n_y,n_z,strategy,sampler,samples,replic
                       mean_luminance,error,variance_of_mean,variance_lo,variance_hi,variance_exact,variance_ratio,\
                       variance_ratio_lo,variance_ratio_hi,variance_of_one,\
                       chebyshev_delta,chebyshev_outside,rays,seconds,efficiency,irradiance_known,irradiance_exact,\
-                      setup_seconds";
+                      setup_seconds,strategy_setup_rays,strategy_setup_seconds";
 
 #[test]
 fn a_header_then_a_line_for_each_row_with_numbers_that_read_back() {

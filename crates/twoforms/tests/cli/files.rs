@@ -20,6 +20,17 @@ fn a_folder_of_results_holds_both_files_and_nothing_half_written() {
 }
 
 #[test]
+fn exact_light_goes_to_a_folder_too() {
+    let folder = folder("exact-out").join("deep/er");
+    let line = format!("exact @cornell-box --receiver floor-lit --strategies area/uniform --out {}", folder.display());
+    assert!(twoforms(&line).printed().contains("area/uniform"));
+    assert_eq!(names(&folder), ["exact.csv", "exact.json"]);
+    let json: Value = serde_json::from_slice(&fs::read(folder.join("exact.json")).expect("a file")).expect("JSON");
+    assert_eq!(json["schema"], "twoforms.exact/1");
+    assert_eq!(fs::read_to_string(folder.join("exact.csv")).expect("a file").lines().count(), 2);
+}
+
+#[test]
 fn an_output_file_takes_what_would_be_printed() {
     let folder = folder("output");
     let path = written(&folder, "result.json", "old");

@@ -62,6 +62,20 @@ fn points_must_be_six_finite_numbers_with_a_normal() {
 }
 
 #[test]
+fn options_that_would_change_nothing_are_refused() {
+    for command in ["compare", "exact"] {
+        for (words, says) in [
+            ("--albedo 0.5", "--albedo is for --quantity radiance"),
+            ("--lambert", "--lambert is for --quantity radiance"),
+            ("--width 64", "--pixel and --grid"),
+            ("--receiver floor-lit --height 64", "--pixel and --grid"),
+        ] {
+            twoforms(&format!("{command} @cornell-box {words}")).misused(&[says, &format!("twoforms {command}")]);
+        }
+    }
+}
+
+#[test]
 fn pixels_grids_views_crops_and_albedos_have_their_forms() {
     for (words, says) in [
         ("compare --pixel 1", "two whole numbers"),

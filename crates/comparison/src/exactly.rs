@@ -110,7 +110,7 @@ pub fn exactly(
 /// Works out one receiver.
 pub fn at(world: &World, place: &Place, strategies: &[Strategy]) -> ExactResult {
     let frame = place.frame();
-    let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
+    let sight = receiver::look(&world.geometry, &world.lights, &frame, place.scale());
     let sight = sight.and_then(|sight| place.reflected(&frame, sight));
     // Where radiance varies over a target, the unhidden light of the mean radiances is another number, and not known.
     let known = |_: &&Sight| place.is_glossy() && !world.lights.vary();

@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use twoforms_report::{Detail, Document, ReportError, csv, file, json, table};
+use twoforms_reproduction::Text;
 
 use crate::args::Format;
 
@@ -13,11 +14,18 @@ pub struct Destination<'a> {
     format: Format,
     output: Option<&'a Path>,
     folder: Option<&'a Path>,
+    /// The experiment's file, written into the folder too.
+    experiment: Option<&'a Text>,
 }
 
 impl<'a> Destination<'a> {
     /// Tries every place that will be written to.
-    pub fn new(format: Format, output: Option<&'a Path>, folder: Option<&'a Path>) -> Result<Self, ReportError> {
+    pub fn new(
+        format: Format,
+        output: Option<&'a Path>,
+        folder: Option<&'a Path>,
+        experiment: Option<&'a Text>,
+    ) -> Result<Self, ReportError> {
         if let Some(path) = output {
             file::check(path)?;
         }
@@ -26,8 +34,11 @@ impl<'a> Destination<'a> {
             for path in in_folder(folder) {
                 file::check(&path)?;
             }
+            if experiment.is_some() {
+                file::check(&folder.join(EXPERIMENT))?;
+            }
         }
-        Ok(Self { format, output, folder })
+        Ok(Self { format, output, folder, experiment })
     }
 
     /// Writes the folder, then the file or standard output.
@@ -36,6 +47,9 @@ impl<'a> Destination<'a> {
             let [json_path, csv_path] = in_folder(folder);
             file::save(&json_path, |out| json::write(document, out))?;
             file::save(&csv_path, |out| csv::write(document, out))?;
+            if let Some(text) = self.experiment {
+                save_text(&folder.join(EXPERIMENT), text)?;
+            }
         }
         write_to(self.output, |out| self.print(document, out))
     }
@@ -63,6 +77,14 @@ pub fn write_to(
     let mut out = BufWriter::new(io::stdout().lock());
     content(&mut out)?;
     Ok(out.flush()?)
+}
+
+/// The experiment's file among the results.
+const EXPERIMENT: &str = "experiment.toml";
+
+/// Writes a file of experiments as it was run.
+pub fn save_text(path: &Path, text: &Text) -> Result<(), ReportError> {
+    file::save(path, |out| Ok(out.write_all(text.text.as_bytes())?))
 }
 
 fn in_folder(folder: &Path) -> [PathBuf; 2] {

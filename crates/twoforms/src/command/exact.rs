@@ -5,12 +5,13 @@ use std::time::SystemTime;
 use anyhow::Result;
 use twoforms_comparison::exactly::exactly;
 use twoforms_comparison::exactly::with_formula;
+use twoforms_comparison::places::Stay;
+use twoforms_comparison::request::Asked;
 use twoforms_comparison::swept::{default_strategies, swept};
 use twoforms_report::{ExactDocument, ReportError, file};
 
 use crate::args::{ExactArgs, Format};
-use crate::places::Stay;
-use crate::{output, places, progress, run};
+use crate::{output, progress, run};
 
 /// Works out, and prints.
 pub fn run(args: &ExactArgs) -> Result<()> {
@@ -18,7 +19,7 @@ pub fn run(args: &ExactArgs) -> Result<()> {
     run::set_threads(&args.run)?;
     let world = run::load(&args.scene, &args.run)?;
     let stay = if args.sweep.is_some() { Stay::Moving } else { Stay::Put };
-    let places = places::places(&world, &args.places, &args.run, stay)?;
+    let places = run::places(&world, &args.places, &args.run, stay)?;
     if let Some(path) = &args.print.output {
         file::check(path)?;
     }
@@ -31,8 +32,8 @@ pub fn run(args: &ExactArgs) -> Result<()> {
         Some(sweep) => swept(&world, &places, &strategies.unwrap_or_else(default_strategies), sweep, &progress),
     };
     bar.finish_and_clear();
-    let quantity = args.places.quantity.name();
-    let provenance = run::provenance(&world.scene, &args.run, started).with("quantity", quantity);
+    let quantity = Asked::from(args.places.quantity).name();
+    let provenance = run::provenance(&world.scene, args.run.seed(), started).with("quantity", quantity);
     let document = ExactDocument::new(provenance, results)?;
     Ok(output::write_to(args.print.output.as_deref(), |out| print(&document, args.print.format, out))?)
 }

@@ -126,7 +126,7 @@ pub(crate) struct KnownSeconds {
 pub(crate) fn timed_at(world: &World, place: &Place, strategies: &[Strategy]) -> (ExactResult, KnownSeconds) {
     let frame = place.frame();
     let (sight, seconds) = timed(|| {
-        let sight = receiver::look(&world.geometry, &world.lights, &frame, place.f_r());
+        let sight = receiver::look(&world.geometry, &world.lights, &frame, place.scale());
         sight.and_then(|sight| place.reflected(&frame, sight))
     });
     let mut known_seconds = KnownSeconds { sight: seconds, alpha: Vec::new() };

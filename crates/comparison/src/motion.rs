@@ -68,7 +68,7 @@ impl<'w> Stage<'w> {
         let frame = Frame::new(place.position + offset, place.normal);
         let checked = self.on_lights.check(&frame, Origin::Given);
         checked.map_err(|on_light| Error::OnLight { target: on_light.target })?;
-        let sight = receiver::look(&self.world.geometry, &self.world.lights, &frame, place.f_r())?;
+        let sight = receiver::look(&self.world.geometry, &self.world.lights, &frame, place.scale())?;
         place.reflected(&frame, sight)
     }
 
@@ -77,7 +77,7 @@ impl<'w> Stage<'w> {
         let body = |lamp: &Lamp| Body { triangles: lamp.triangles.clone(), offset: offset(lamp) };
         let motion = Motion::new(scale, self.lamps.iter().map(body).collect());
         let World { geometry, lights, .. } = self.world;
-        let sight = receiver::look_moved(geometry, lights, &place.frame(), place.f_r(), &motion)?;
+        let sight = receiver::look_moved(geometry, lights, &place.frame(), place.scale(), &motion)?;
         place.reflected(&place.frame(), sight)
     }
 }

@@ -78,15 +78,20 @@ impl Place {
         }
     }
 
-    /// f_r, RGB, where it is the same for all directions: what scales the light that arrives. Else 1: see
-    /// [`Place::reflected`].
-    pub(crate) fn f_r(&self) -> [f64; 3] {
+    /// f_r, RGB, where it is the same for all directions; 1 where irradiance is asked. `None` at a highlight.
+    pub fn f_r(&self) -> Option<[f64; 3]> {
         match self.quantity {
+            Quantity::Irradiance => Some([1.0; 3]),
             Quantity::Radiance { surface: Reflection::Lambertian(albedo), .. } => {
-                albedo.map(|rho| f64::from(rho) * std::f64::consts::FRAC_1_PI)
+                Some(albedo.map(|rho| f64::from(rho) * std::f64::consts::FRAC_1_PI))
             }
-            Quantity::Irradiance | Quantity::Radiance { .. } => [1.0; 3],
+            Quantity::Radiance { surface: Reflection::Glossy { .. }, .. } => None,
         }
+    }
+
+    /// What scales the light that arrives: f_r, or 1 at a highlight, which is in [`Place::reflected`].
+    pub(crate) fn scale(&self) -> [f64; 3] {
+        self.f_r().unwrap_or([1.0; 3])
     }
 
     /// What a sight from `frame` comes to by a surface with a highlight, if that is what lies there.
@@ -108,7 +113,7 @@ impl Place {
     }
 
     /// L_e toward the eye from the surface itself, RGB.
-    pub(crate) fn emission(&self) -> [f64; 3] {
+    pub fn emission(&self) -> [f64; 3] {
         match self.quantity {
             Quantity::Irradiance => [0.0; 3],
             Quantity::Radiance { emission, .. } => emission.map(f64::from),

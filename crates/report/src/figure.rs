@@ -1,4 +1,4 @@
-//! Figures of lines as SVG: colours that are readable on white and on dark, nothing behind them, lines named at their ends.
+//! Figures of lines as SVG: colours that are readable on white and on dark, nothing behind them, lines named beside their ends.
 
 use std::fmt::Write;
 
@@ -66,6 +66,8 @@ struct Ruler {
 
 /// Even ticks, at least.
 const TICKS: f64 = 4.0;
+/// Decades that have a tick each, at most.
+const MOST_DECADES: usize = 9;
 
 impl Ruler {
     fn new(scale: Scale, numbers: impl Iterator<Item = f64> + Clone, ends: [f64; 2]) -> Self {
@@ -75,11 +77,16 @@ impl Ruler {
         }
     }
 
-    /// The decades that hold these numbers, but for what lies less than a tenth beyond a power of ten.
+    /// The decades that hold these numbers, but for what lies less than a tenth beyond a power of ten; of many each second, third, …
     fn decades(written: fn(i32) -> String, numbers: impl Iterator<Item = f64> + Clone, ends: [f64; 2]) -> Self {
         let (low, high) = range(numbers);
         let (low, high) = ((low * 1.1).log10().floor() as i32, (high / 1.1).log10().ceil() as i32);
-        let ticks = (low..=high.max(low + 1)).map(|exponent| (10_f64.powi(exponent), written(exponent)));
+        let step = ((high - low) as usize).div_ceil(MOST_DECADES).max(1);
+        let first = low.div_euclid(step as i32) * step as i32;
+        let exponents = (first..).step_by(step);
+        let last = exponents.clone().find(|&exponent| exponent >= high.max(low + 1)).unwrap_or(high);
+        let ticks = exponents.take_while(|&exponent| exponent <= last);
+        let ticks = ticks.map(|exponent| (10_f64.powi(exponent), written(exponent)));
         Self { logarithmic: true, ticks: ticks.collect(), ends }
     }
 
@@ -170,13 +177,16 @@ impl Line {
         for [x, y] in places.into_iter().filter(|_| self.marked) {
             let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>");
         }
+        let right = across.ends[1];
         let _ = writeln!(
             svg,
-            "<line x1=\"{:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{name_y:.1}\" stroke=\"{colour}\" stroke-opacity=\"0.5\"/>",
+            "<polyline points=\"{:.1},{y:.1} {:.1},{y:.1} {:.1},{name_y:.1}\" fill=\"none\" stroke=\"{colour}\" \
+             stroke-opacity=\"0.5\"/>",
             x + 5.0,
-            x + 18.0
+            right.max(x) + 5.0,
+            right.max(x) + 18.0
         );
-        svg + &text(x + 22.0, name_y + 4.0, "start", colour, &self.name)
+        svg + &text(right.max(x) + 22.0, name_y + 4.0, "start", colour, &self.name)
     }
 }
 
@@ -227,6 +237,9 @@ mod tests {
             let place = ruler.place(*tick);
             assert!(*words == number(3 + k) && (place - 100.0 * f64::from(k)).abs() < 1e-9, "{words} at {place}");
         }
+        let many = Ruler::new(Scale::Decades(number), [3e-13, 0.1].into_iter(), [0.0, 1.0]);
+        let words: Vec<&str> = many.ticks.iter().map(|(_, words)| words.as_str()).collect();
+        assert_eq!(words, ["10⁻¹⁴", "10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
         assert_eq!([number(3), number(-12)], ["10³", "10⁻¹²"]);
         assert_eq!([seconds(-6), seconds(-1), seconds(2), seconds(4)], ["1 µs", "100 ms", "100 s", "10⁴ s"]);
     }

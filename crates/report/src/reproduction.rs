@@ -28,6 +28,7 @@ struct Entry<'a> {
     name: &'a str,
     title: &'a str,
     source: &'a str,
+    derivation: &'a str,
     seed: String,
     rows: Vec<&'a Row>,
     #[serde(skip)]
@@ -44,6 +45,7 @@ impl<'a> ReproductionDocument<'a> {
             name: &whole.name,
             title: &whole.title,
             source: &whole.source,
+            derivation: &whole.derivation,
             seed: whole.seed.to_string(),
             rows: whole.rows().collect(),
             whole,
@@ -117,7 +119,11 @@ fn verdict(verdict: Verdict) -> &'static str {
 const HEADER: [&str; 6] = ["quantity", "published", "exact", "ours", "±", "verdict"];
 
 fn block(of: &Reproduction) -> String {
-    let mut text = format!("{}: {}\n{}\nseed {}\n", of.name, of.title, wrapped(&of.source), of.seed);
+    let mut text = format!("{}: {}\n{}\n", of.name, of.title, wrapped(&format!("source: {}", of.source)));
+    if !of.derivation.is_empty() {
+        let _ = writeln!(text, "{}", wrapped(&format!("derivation: {}", of.derivation)));
+    }
+    let _ = writeln!(text, "seed {}", of.seed);
     for section in of.sections.iter().filter(|section| !section.rows.is_empty()) {
         let _ = write!(text, "\n{}", section_text(section));
     }
@@ -150,18 +156,31 @@ fn section_text(section: &Section) -> String {
 }
 
 fn cells(row: &Row) -> Vec<String> {
-    let cell = |value: Option<f64>| value.map_or(NONE.to_owned(), |value| rounded(value, 7));
+    let cell = |value: Option<f64>| value.map_or(NONE.to_owned(), |value| rounded(value, DIGITS));
     let half = row.interval.map(|[low, high]| rounded(0.5 * (high - low), 2));
     let printed = row.expected[0].map_or(NONE.to_owned(), |printed| printed.value.to_string());
     vec![
         row.quantity.clone(),
         printed,
-        cell(row.exact),
+        exact(row),
         cell(row.measured),
         half.unwrap_or(NONE.to_owned()),
         verdict(row.verdict).to_owned(),
     ]
 }
+
+/// What is exact in seven digits, or in as many as it stands beside; a count as one.
+fn exact(row: &Row) -> String {
+    let digits = row.expected.iter().flatten().map(|printed| printed.digits).fold(DIGITS, usize::max);
+    match row.finding.exact {
+        None => NONE.to_owned(),
+        Some([count, 0.0]) if count.fract() == 0.0 => count.to_string(),
+        Some([value, _]) => rounded(value, digits),
+    }
+}
+
+/// Digits of values.
+const DIGITS: usize = 7;
 
 /// Colours of lines, readable on white and on dark.
 const COLOURS: [&str; 8] = ["#3b82c4", "#d9822b", "#3f9c64", "#c2495a", "#8a63c9", "#9a7b3f", "#2aa3a3", "#b15fa5"];
@@ -172,11 +191,12 @@ pub fn svg(plot: &Plot) -> Option<String> {
         name: plot.axes[k].clone(),
         scale: if plot.logarithmic[k] { Scale::Decades(number) } else { Scale::Even },
     };
+    let mixed = plot.lines.iter().any(|line| !line.exact);
     let line = |(k, line): (usize, &twoforms_reproduction::plot::Line)| Line {
         name: line.name.clone(),
         colour: COLOURS[k % COLOURS.len()],
-        dashed: line.exact,
-        marked: line.points.len() <= MOST_MARKED,
+        dashed: line.exact && mixed,
+        marked: line.points.len() <= MOST_MARKED && !(line.exact && mixed),
         points: line.points.clone(),
     };
     let lines: Vec<Line> = plot.lines.iter().enumerate().map(line).collect();

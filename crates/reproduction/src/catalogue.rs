@@ -17,6 +17,7 @@ const REPRODUCTIONS: &[(&str, &[u8])] = files!(
     "projected-solid-angle.toml",
     "near-lights.toml",
     "selection.toml",
+    "furnace.toml",
 );
 
 const SCENES: &[(&str, &[u8])] = files!(

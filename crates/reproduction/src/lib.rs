@@ -6,8 +6,10 @@
 
 pub mod catalogue;
 pub mod crossing;
+pub mod either;
 pub mod formula;
 pub mod lighting;
+mod limits;
 pub mod nested;
 pub mod outcome;
 pub mod overrides;
@@ -23,4 +25,4 @@ pub mod variable;
 pub use outcome::{Row, Verdict};
 pub use plot::Plot;
 pub use reading::{Error, Text};
-pub use reproduction::{Reproduction, Section, Settings, run};
+pub use reproduction::{Hears, Reproduction, Section, Settings, run};

@@ -2,11 +2,11 @@
 
 use twoforms_comparison::exactly::{self, ExactResult};
 use twoforms_comparison::experiment::Experiment as Comparison;
-use twoforms_comparison::place::Place;
+use twoforms_comparison::place::{self, Place};
 use twoforms_comparison::result::{ReceiverResult, Row};
 use twoforms_comparison::statistics::student_quantile;
 use twoforms_comparison::sweep::Sweep;
-use twoforms_comparison::swept::{Swept, swept};
+use twoforms_comparison::swept::{Crossing, Swept, swept};
 use twoforms_comparison::verdict::Criteria;
 use twoforms_comparison::world::World;
 use twoforms_estimator::sampler::Sampler;
@@ -45,14 +45,14 @@ pub struct Lighting {
 const SAMPLES: [u32; 2] = [16, 64];
 
 impl Lighting {
-    /// Works out all that the rows of an experiment ask about.
+    /// Works out all that the rows of an experiment ask about; `note` is told what is left out or read otherwise.
     ///
     /// # Errors
     /// Where a name is unknown, or what is asked is impossible.
-    pub fn new(experiment: &Experiment, text: &Text, run: Run) -> Result<Option<Self>, Error> {
+    pub fn new(experiment: &Experiment, text: &Text, run: Run, note: &dyn Fn(&str)) -> Result<Option<Self>, Error> {
         let Some(scene) = &experiment.scene else { return Ok(None) };
-        let world = stage::world(scene, text)?;
-        let places = stage::places(experiment, &world, text)?;
+        let world = stage::world(scene, text, note)?;
+        let places = stage::places(experiment, &world, text, note)?;
         let strategies = strategies(experiment, text)?;
         let exact = exactly::exactly(&world, &places, &strategies, &|_| ());
         let comparison = Comparison {
@@ -95,6 +95,10 @@ impl Lighting {
         let sampler = row.sampler.as_ref().map_or(Ok(Sampler::Independent), |name| stage::sampler(name, text))?;
         match *row.quantity.get_ref() {
             Quantity::Irradiance | Quantity::Radiance => {
+                let asked = self.asked();
+                if *row.quantity.get_ref() != asked {
+                    return Err(wrong(format!("the experiment asks for {0}: its quantity is {0}", word(asked))));
+                }
                 let strategy = row.strategy.as_ref().map(|name| stage::strategy(name, text)).transpose()?;
                 Ok(self.irradiance(at, strategy, sampler))
             }
@@ -106,7 +110,12 @@ impl Lighting {
             Quantity::Rate => self.rate(at, named(&row.strategy, "strategy")?, sampler).map_err(wrong),
             Quantity::Crossing => {
                 let of = [named(&row.strategy, "strategy")?, named(&row.to, "to")?];
-                self.crossing(at, of, row.which.unwrap_or(1)).map_err(wrong)
+                self.crossing(at, of, row.which.unwrap_or(1) as usize).map_err(wrong)
+            }
+            Quantity::Crossings => {
+                let of = [named(&row.strategy, "strategy")?, named(&row.to, "to")?];
+                let count = self.crossings(at, of).map_err(wrong)?.count();
+                Ok(Finding { exact: Some([count as f64, 0.0]), ..Finding::default() })
             }
             Quantity::SolidAngle => Ok(nested::solid_angle(self, at)),
             Quantity::Emitted => Ok(nested::emitted(self, at)),
@@ -161,7 +170,7 @@ impl Lighting {
             finding.measured = Some(on_logs(variance * n, interval.map(|end| end * n), self.level));
         }
         // Where nothing varies there is only what binary32 arithmetic leaves: no interval holds that against zero.
-        if exact.is_some_and(|[value, _]| value == 0.0) {
+        if exact.is_some_and(|[value, error]| value.abs() <= error) {
             let (mean, most) = (row.mean.luminance, NO_VARIANCE);
             let share = row.variance_of_mean.unwrap_or(f64::NAN) * n / (mean * mean);
             if share > most {
@@ -201,12 +210,23 @@ impl Lighting {
     }
 
     fn crossing(&self, at: usize, of: [Strategy; 2], which: usize) -> Result<Finding, String> {
+        let found = self.crossings(at, of)?.nth(which - 1).ok_or("their variances do not cross there so often")?;
+        Ok(Finding { exact: Some([found.at, found.error_bound.max(1e-9 * found.at.abs())]), ..Finding::default() })
+    }
+
+    /// Where two strategies have equal variance along the sweep.
+    fn crossings(&self, at: usize, of: [Strategy; 2]) -> Result<impl Iterator<Item = &Crossing>, String> {
         let swept = self.swept.get(at).ok_or("it needs a sweep")?;
         let names = of.map(|strategy| strategy.to_string());
-        let is_pair = |pair: &[String; 2]| names.iter().all(|name| pair.contains(name));
-        let mut crossings = swept.crossings.iter().filter(|crossing| is_pair(&crossing.strategies));
-        let found = crossings.nth(which.saturating_sub(1)).ok_or("their variances do not cross there so often")?;
-        Ok(Finding { exact: Some([found.at, found.error_bound.max(1e-9 * found.at.abs())]), ..Finding::default() })
+        Ok(swept.crossings.iter().filter(move |crossing| names.iter().all(|name| crossing.strategies.contains(name))))
+    }
+
+    /// What is asked at the receivers.
+    fn asked(&self) -> Quantity {
+        match self.places[0].quantity {
+            place::Quantity::Irradiance => Quantity::Irradiance,
+            place::Quantity::Radiance { .. } => Quantity::Radiance,
+        }
     }
 }
 
@@ -242,7 +262,10 @@ fn strategies(experiment: &Experiment, text: &Text) -> Result<Vec<Strategy>, Err
 
 /// Those whose samples a row needs.
 fn measured_strategies(experiment: &Experiment, text: &Text) -> Result<Vec<Strategy>, Error> {
-    let needs_none = |row: &Expected| *row.quantity.get_ref() == Quantity::Crossing;
+    if experiment.chance == Some(false) {
+        return Ok(Vec::new());
+    }
+    let needs_none = |row: &Expected| matches!(row.quantity.get_ref(), Quantity::Crossing | Quantity::Crossings);
     let row = experiment.row.iter().filter(|row| !needs_none(row)).cloned().collect();
     let drawn = experiment.figure == Some(crate::schema::Figure::Variances);
     let listed = experiment.strategies.clone().filter(|_| drawn);

@@ -72,12 +72,13 @@ pub fn emitted(lighting: &Lighting, at: usize) -> Finding {
     Finding { exact: Some([luminance(emission), 0.0]), ..Finding::default() }
 }
 
-/// E₁ at the receiver: one integral, by points on the lights.
+/// The light that arrives directly, E₁ or what the receiver's surface reflects of it: one integral, by points on the lights.
 ///
 /// # Errors
 /// Where a sample is not finite.
 pub fn direct(lighting: &Lighting, at: usize) -> Result<Finding, String> {
-    let exact = lighting.exact[at].light.irradiance.map(|value| [value.luminance, value.error_bound]);
+    let emission = luminance(lighting.places[at].emission());
+    let exact = lighting.exact[at].light.irradiance.map(|value| [value.luminance - emission, value.error_bound]);
     let [outer, inner] = lighting.nested.ok_or("it needs nested = [outer, inner]")?;
     let place = &lighting.places[at];
     let comparison = Comparison { replicates: outer, ..inner_samples(lighting, inner) };
@@ -86,18 +87,22 @@ pub fn direct(lighting: &Lighting, at: usize) -> Result<Finding, String> {
     let row = &results[0].rows[0];
     let deviation = (row.variance_of_mean.unwrap_or(0.0) / f64::from(outer)).sqrt();
     let half = student_quantile(z(lighting.level), f64::from(outer) - 1.0) * deviation;
-    let measured = Measured::around(row.mean.luminance, half + ARITHMETIC * row.mean.luminance);
+    let mean = row.mean.luminance - emission;
+    let measured = Measured::around(mean, half + ARITHMETIC * mean);
     let note = Some(format!("{} rays", u64::from(outer) * u64::from(inner)));
     Ok(Finding { exact, measured: Some(measured), note, ..Finding::default() })
 }
 
-/// E₂ at the receiver: two nested integrals, by directions over the hemisphere and, where each meets a surface, points on the
-/// lights. Beside it the midpoint rule over directions with E₁ exact, whose error is estimated by half as many along each axis.
+/// The light that was reflected once on its way, E₂ or what the receiver's surface reflects of it: two nested integrals, by
+/// directions over the hemisphere and, where each meets a surface, points on the lights. Beside it the midpoint rule over
+/// directions with E₁ exact at each. How far that is off is estimated by half as many directions along each axis: the integrand
+/// jumps where one surface ends before another, and no bound is known.
 ///
 /// # Errors
-/// Where a sample is not finite.
+/// Where a sample is not finite, or the receiver's surface has a highlight.
 pub fn twice(lighting: &Lighting, at: usize) -> Result<Finding, String> {
     let [outer, inner] = lighting.nested.ok_or("it needs nested = [outer, inner]")?;
+    let f_r = lighting.places[at].f_r().ok_or("the receiver's surface has a highlight: add lambert = true")?;
     let source = Source::independent(lighting.seed);
     let stream = source.stream(outer, 0);
     let coordinate = |k: usize| Coordinate(k).samples(&stream).map_err(|error| error.to_string());
@@ -107,22 +112,21 @@ pub fn twice(lighting: &Lighting, at: usize) -> Result<Finding, String> {
     let comparison = Comparison { replicates: 1, ..inner_samples(lighting, inner) };
     let results = comparison.run(&lighting.world, &places, &|_| ()).map_err(|error| error.to_string())?;
     let mut worth = vec![0.0; met.len() - places.len()];
-    let reflected = met.iter().flatten().zip(&results).map(|(met, result)| met.reflects(result.rows[0].mean.rgb));
+    let reflected = met.iter().flatten().zip(&results).map(|(met, result)| met.reflects(result.rows[0].mean.rgb, f_r));
     worth.extend(reflected);
     let moments = Moments::of(&worth);
     let deviation = (moments.variance().unwrap_or(0.0) / f64::from(outer)).sqrt();
     let half = student_quantile(z(lighting.level), f64::from(outer) - 1.0) * deviation;
-    let [coarse, fine] = [RULE / 2, RULE].map(|m| by_rule(lighting, at, m));
-    let note = format!(
-        "{} rays; exact by {RULE} × {RULE} directions, error estimated",
-        u64::from(outer) * u64::from(inner + 1)
-    );
-    Ok(Finding {
-        exact: Some([fine, (fine - coarse).abs()]),
-        measured: Some(Measured::around(moments.mean, half)),
-        note: Some(note),
-        ..Finding::default()
-    })
+    let [coarse, fine] = [RULE / 2, RULE].map(|m| by_rule(lighting, at, m, f_r));
+    let exact = coarse.zip(fine).map(|(coarse, fine)| [fine, (fine - coarse).abs()]);
+    let rays = format!("{} rays", u64::from(outer) * u64::from(inner + 1));
+    let note = exact.map_or(rays.clone(), |[_, error]| {
+        format!(
+            "{rays}; exact: midpoints of {RULE} × {RULE} cells of directions, the inner integral exact at each; half as many \
+             along each axis differ by {error:.1e}, which stands for its error and is no bound"
+        )
+    });
+    Ok(Finding { exact, measured: Some(Measured::around(moments.mean, half)), note: Some(note), ..Finding::default() })
 }
 
 /// Directions along each axis of the rule.
@@ -160,9 +164,9 @@ struct Met {
 }
 
 impl Met {
-    /// Luminance of ρ E₁: with p = cosθ/π, π cosθ/cosθ · ρ/π E₁.
-    fn reflects(&self, irradiance: [f64; 3]) -> f64 {
-        luminance(std::array::from_fn(|c| self.albedo[c] * irradiance[c]))
+    /// Luminance of f_r ρ E₁, f_r at the receiver: with p = cosθ/π, f_r π cosθ/cosθ · ρ/π E₁.
+    fn reflects(&self, irradiance: [f64; 3], f_r: [f64; 3]) -> f64 {
+        luminance(std::array::from_fn(|c| f_r[c] * self.albedo[c] * irradiance[c]))
     }
 }
 
@@ -183,14 +187,14 @@ fn meet(lighting: &Lighting, at: usize, xi: DVec2) -> Option<Met> {
     Some(Met { place, albedo })
 }
 
-/// E₂ by the midpoint rule over directions, with E₁ exact.
-fn by_rule(lighting: &Lighting, at: usize, m: u32) -> f64 {
+/// The same by the midpoint rule over directions, with E₁ exact; `None` where E₁ is not known somewhere.
+fn by_rule(lighting: &Lighting, at: usize, m: u32, f_r: [f64; 3]) -> Option<f64> {
     let node = |k: u32| (f64::from(k) + 0.5) / f64::from(m);
     let worth = |k: u32| {
-        let met = meet(lighting, at, DVec2::new(node(k / m), node(k % m)))?;
+        let Some(met) = meet(lighting, at, DVec2::new(node(k / m), node(k % m))) else { return Some(0.0) };
         let light = exactly::at(&lighting.world, &met.place, &[]).light.irradiance?;
-        Some(met.reflects(light.rgb))
+        Some(met.reflects(light.rgb, f_r))
     };
-    let values: Vec<f64> = (0..m * m).into_par_iter().map(|k| worth(k).unwrap_or(0.0)).collect();
-    values.iter().sum::<f64>() / f64::from(m * m)
+    let values: Option<Vec<f64>> = (0..m * m).into_par_iter().map(worth).collect();
+    values.map(|values| values.iter().sum::<f64>() / f64::from(m * m))
 }

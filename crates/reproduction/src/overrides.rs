@@ -1,6 +1,6 @@
 //! Fields of a file set from outside: `key=value`.
 
-use toml::{Table, Value};
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
 use crate::reading::{Error, Text, hint};
 
@@ -9,67 +9,80 @@ const OF_FILE: [&str; 5] = ["title", "source", "derivation", "seed", "detects"];
 
 impl Text {
     /// The same text with fields set: `replicates=100`, `experiment.2.samples=[1, 4]`. A key of experiments is set in all of them,
-    /// unless its path counts one out, from 1. What is no TOML value is a string.
+    /// unless its path counts one out, from 1. What is no TOML value is a string. All else stays where it is, comments too.
     ///
     /// # Errors
-    /// Where the text is no TOML, or a path leads nowhere.
+    /// Where the text is wrong, a path leads nowhere, or a key cannot have its value.
     pub fn with(&self, settings: &[String]) -> Result<Self, Error> {
-        if settings.is_empty() {
-            return Ok(self.clone());
-        }
-        let mut table: Table = self.read()?;
-        for setting in settings {
-            let wrong = |message: String| Error { place: format!("-D {setting}"), message };
-            let (key, value) = setting.split_once('=').ok_or_else(|| wrong("the form is key=value".into()))?;
-            set(&mut table, key.trim(), &parsed(value.trim())).map_err(wrong)?;
-        }
-        let text =
-            toml::to_string(&table).map_err(|error| Error { place: self.name.clone(), message: error.to_string() })?;
-        Ok(Self { name: format!("{} with -D", self.name), text, ..self.clone() })
+        self.parse()?;
+        settings.iter().try_fold(self.clone(), |text, setting| text.with_one(setting))
+    }
+
+    fn with_one(&self, setting: &str) -> Result<Self, Error> {
+        let wrong = |message: String| Error { place: format!("-D {setting}"), message };
+        let (key, value) = setting.split_once('=').ok_or_else(|| wrong("the form is key=value".into()))?;
+        let mut document: DocumentMut = self.text.parse().map_err(|error| wrong(format!("{error}")))?;
+        set(document.as_table_mut(), key.trim(), &parsed(value.trim())).map_err(wrong)?;
+        let text = Self { text: document.to_string(), ..self.clone() };
+        text.parse().map_err(|error| wrong(error.message))?;
+        Ok(text)
     }
 }
 
 fn parsed(value: &str) -> Value {
-    let table = toml::from_str::<Table>(&format!("value = {value}")).ok();
-    table.and_then(|mut table| table.remove("value")).unwrap_or_else(|| Value::String(value.to_owned()))
+    value.parse().unwrap_or_else(|_| Value::from(value))
 }
 
 fn set(table: &mut Table, key: &str, value: &Value) -> Result<(), String> {
-    if OF_FILE.contains(&key) && !key.contains('.') {
-        table.insert(key.to_owned(), value.clone());
-        return Ok(());
+    if OF_FILE.contains(&key) {
+        return set_here(table, key, value);
     }
-    let experiments = table.get_mut("experiment").and_then(Value::as_array_mut).ok_or("the file has no experiment")?;
-    let (chosen, path) = match key.strip_prefix("experiment.") {
-        None => (None, key),
-        Some(rest) => {
-            let (number, path) = rest.split_once('.').ok_or("an experiment is counted out as experiment.1.key")?;
-            let number: usize = number.parse().map_err(|_| format!("\"{number}\" is no number of an experiment"))?;
-            (Some(number), path)
-        }
-    };
-    let count = experiments.len();
-    if chosen.is_some_and(|number| !(1..=count).contains(&number)) {
-        return Err(format!("the file counts its experiments from 1 to {count}"));
-    }
+    let experiments = table.get_mut("experiment").and_then(Item::as_array_of_tables_mut);
+    let experiments = experiments.ok_or("the file has no [[experiment]]")?;
+    let (chosen, path) = chosen(key, experiments)?;
     for (k, experiment) in experiments.iter_mut().enumerate() {
         if chosen.is_none_or(|number| number == k + 1) {
-            let experiment = experiment.as_table_mut().ok_or("an experiment is no table")?;
             set_below(experiment, path, value)?;
         }
     }
     Ok(())
 }
 
+/// The experiment that a key counts out, if it does, and the key within it.
+fn chosen<'a>(key: &'a str, experiments: &ArrayOfTables) -> Result<(Option<usize>, &'a str), String> {
+    let Some(rest) = key.strip_prefix("experiment.") else { return Ok((None, key)) };
+    let (number, path) = rest.split_once('.').ok_or("an experiment is counted out as experiment.1.key")?;
+    let number: usize = number.parse().map_err(|_| format!("\"{number}\" is no number of an experiment"))?;
+    let count = experiments.len();
+    if (1..=count).contains(&number) {
+        Ok((Some(number), path))
+    } else {
+        Err(format!("the file counts its experiments from 1 to {count}"))
+    }
+}
+
 fn set_below(table: &mut Table, path: &str, value: &Value) -> Result<(), String> {
-    let Some((head, rest)) = path.split_once('.') else {
-        table.insert(path.to_owned(), value.clone());
-        return Ok(());
-    };
-    let known: Vec<String> = table.keys().cloned().collect();
-    let below = table.get_mut(head).and_then(Value::as_table_mut);
+    let Some((head, rest)) = path.split_once('.') else { return set_here(table, path, value) };
+    let known: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
     let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    set_below(below.ok_or_else(|| format!("there is no table \"{head}\"{}", hint(head, &known)))?, rest, value)
+    let below = table.get_mut(head).and_then(Item::as_table_like_mut);
+    let below = below.ok_or_else(|| format!("there is no table \"{head}\"{}", hint(head, &known)))?;
+    below.insert(rest, Item::Value(value.clone()));
+    Ok(())
+}
+
+/// Sets a key; one that is new goes before the table's own tables.
+fn set_here(table: &mut Table, key: &str, value: &Value) -> Result<(), String> {
+    match table.get_mut(key) {
+        Some(Item::Value(old)) => {
+            let decor = old.decor().clone();
+            *old = value.clone();
+            *old.decor_mut() = decor;
+        }
+        Some(_) => return Err(format!("\"{key}\" holds tables: set a key within one")),
+        None => drop(table.insert(key, Item::Value(value.clone()))),
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -87,20 +100,35 @@ mod tests {
         let file = two.with(&settings).expect("settings").parse().expect("a file");
         let [one, other] = [0, 1].map(|k| file.experiment[k].get_ref().clone());
         assert_eq!((file.seed, file.title.as_deref()), (9, Some("a b")));
-        assert_eq!(one.replicates.map(toml::Spanned::into_inner), Some(70));
+        assert_eq!(one.replicates, Some(70));
         assert_eq!((one.values, other.values), (Some(vec![1.0]), Some(vec![5.0, 6.0])));
+    }
+
+    #[test]
+    fn what_is_not_set_stays_as_it_was_written() {
+        let one = text("# mine\n[[experiment]]\nvalues = [1, 2] # faces\n[[experiment.row]]\nquantity = \"mean\"\n");
+        let set =
+            one.with(&["seed=3".to_owned(), "values=[4]".to_owned(), "replicates=9".to_owned()]).expect("settings");
+        let expected = "# mine\nseed = 3\n[[experiment]]\nvalues = [4] # faces\nreplicates = 9\n\
+                        [[experiment.row]]\nquantity = \"mean\"\n";
+        assert_eq!(set.text.replace("\n\n", "\n"), expected);
     }
 
     #[test]
     fn paths_that_lead_nowhere_are_told() {
         let one = text("[[experiment]]\nvalues = [1]\n");
-        let error = |setting: &str| one.with(&[setting.to_owned()]).and_then(|text| text.parse()).map(|_| ());
-        let said = |setting: &str| error(setting).expect_err(setting).to_string();
+        let said = |setting: &str| one.with(&[setting.to_owned()]).expect_err(setting).to_string();
         assert_eq!(said("replicates"), "-D replicates: the form is key=value");
         assert_eq!(
             said("experiment.3.values=[1]"),
             "-D experiment.3.values=[1]: the file counts its experiments from 1 to 1"
         );
-        assert!(said("replicats=7").contains("did you mean \"replicates\"?"), "{}", said("replicats=7"));
+        assert_eq!(said("replicats=7"), "-D replicats=7: unknown key \"replicats\"; did you mean \"replicates\"?");
+        assert!(
+            said("samples=[0]").starts_with("-D samples=[0]: needs whole numbers from 1"),
+            "{}",
+            said("samples=[0]")
+        );
+        assert!(said("experiment=3").contains("holds tables") || said("experiment=3").contains("unknown"));
     }
 }

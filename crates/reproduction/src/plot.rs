@@ -1,5 +1,6 @@
 //! What figures show, before they are drawn.
 
+use twoforms_comparison::sweep::{Parameter, Spacing};
 use twoforms_integration::running_means;
 
 use crate::lighting::Lighting;
@@ -102,17 +103,21 @@ fn is_drawn(n: u32) -> bool {
 /// # Errors
 /// What is missing.
 pub fn of_light(figure: Figure, title: &str, lighting: &Lighting) -> Result<Vec<Plot>, String> {
+    let titled = |place: &str| match lighting.places.len() {
+        1 => title.to_owned(),
+        _ => format!("{title}: {place}"),
+    };
     match figure {
-        Figure::Variances => Ok(lighting.measured.iter().map(|at| variances(title, at)).collect()),
+        Figure::Variances => Ok(lighting.measured.iter().map(|at| variances(titled(&at.name), at)).collect()),
         Figure::Sweep => {
             let swept = lighting.swept.iter().zip(&lighting.places);
-            Ok(swept.map(|(swept, place)| sweep(&format!("{title}: {}", place.name), swept)).collect())
+            Ok(swept.map(|(swept, place)| sweep(titled(&place.name), swept)).collect())
         }
         _ => Err("this figure is one of variables and integrals".into()),
     }
 }
 
-fn variances(title: &str, at: &twoforms_comparison::result::ReceiverResult) -> Plot {
+fn variances(title: String, at: &twoforms_comparison::result::ReceiverResult) -> Plot {
     let mut lines: Vec<Line> = Vec::new();
     for row in &at.rows {
         let Some(variance) = row.variance_of_mean.filter(|&variance| variance > 0.0) else { continue };
@@ -123,10 +128,10 @@ fn variances(title: &str, at: &twoforms_comparison::result::ReceiverResult) -> P
             None => lines.push(Line { name, exact: false, points: vec![point] }),
         }
     }
-    Plot { title: format!("{title}: {}", at.name), axes: n_axis("variance of the mean"), logarithmic: [true; 2], lines }
+    Plot { title, axes: n_axis("variance of the mean"), logarithmic: [true; 2], lines }
 }
 
-fn sweep(title: &str, swept: &twoforms_comparison::swept::Swept) -> Plot {
+fn sweep(title: String, swept: &twoforms_comparison::swept::Swept) -> Plot {
     let mut lines: Vec<Line> = Vec::new();
     for step in &swept.steps {
         for variance in &step.light.strategies {
@@ -138,6 +143,7 @@ fn sweep(title: &str, swept: &twoforms_comparison::swept::Swept) -> Plot {
             }
         }
     }
-    let axes = [swept.parameter.name().to_owned(), "variance of one sample".to_owned()];
-    Plot { title: title.to_owned(), axes, logarithmic: [false, true], lines }
+    let unit = if swept.parameter == Parameter::LightScale { "factor" } else { "offset in metres" };
+    let axes = [format!("{}, {unit}", swept.parameter.name()), "variance of one sample".to_owned()];
+    Plot { title, axes, logarithmic: [swept.scale == Spacing::Log, true], lines }
 }

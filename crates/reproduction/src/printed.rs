@@ -7,6 +7,8 @@ pub struct Printed {
     pub value: f64,
     /// How far the number that was printed may lie from it, below and above.
     pub slack: [f64; 2],
+    /// How many digits it was printed with, from the first that is not zero; none where it was computed.
+    pub digits: usize,
 }
 
 impl Printed {
@@ -30,7 +32,18 @@ impl Printed {
             (true, false) => [0.0, unit],
             (true, true) => [unit, 0.0],
         };
-        Some(Self { value, slack })
+        let digits = mantissa.chars().filter(char::is_ascii_digit).skip_while(|&digit| digit == '0').count();
+        Some(Self { value, slack, digits })
+    }
+
+    /// A number that was computed to the last digits of binary64.
+    pub fn computed(value: f64) -> Self {
+        Self { value, slack: [ROUNDING * value.abs(); 2], digits: 0 }
+    }
+
+    /// The same number where its source says that it may be off by so much.
+    pub fn within(self, error: f64) -> Self {
+        Self { slack: self.slack.map(|slack| slack.max(error)), ..self }
     }
 
     /// Whether a number may have been printed so, but for the last bits of its own.
@@ -44,3 +57,6 @@ impl Printed {
         [self.value - self.slack[0], self.value + self.slack[1]]
     }
 }
+
+/// What the operations of a formula may round, relatively.
+const ROUNDING: f64 = 1e-14;

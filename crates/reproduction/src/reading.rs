@@ -51,6 +51,11 @@ impl Text {
         })
     }
 
+    /// A path that the text names: relative to its folder.
+    pub fn beside(&self, path: &str) -> PathBuf {
+        self.folder.clone().unwrap_or_default().join(path)
+    }
+
     /// An error at a place of the text.
     pub fn error(&self, at: Range<usize>, message: &str) -> Error {
         let before = &self.text[..at.start.min(self.text.len())];

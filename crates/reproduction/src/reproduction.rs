@@ -5,6 +5,7 @@ use twoforms_estimator::sampler::Sampler;
 use twoforms_integration::Source;
 
 use crate::crossing;
+use crate::formula::Formula;
 use crate::lighting::{Lighting, Run};
 use crate::outcome::{Finding, Row, Verdict};
 use crate::plot::{self, Plot};
@@ -15,11 +16,9 @@ use crate::stage;
 use crate::toolkit::{Toolkit, word};
 use crate::variable::Subject;
 
-/// What a run may change of a file.
+/// How a file is run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings {
-    /// The seed; the file's unless said.
-    pub seed: Option<u64>,
     /// A tenth of the replicates, and rows that notice only three times as large a change.
     pub quick: bool,
 }
@@ -33,6 +32,8 @@ pub struct Reproduction {
     pub title: String,
     /// Where the published numbers come from.
     pub source: String,
+    /// How the derived numbers come about.
+    pub derivation: String,
     /// The seed that it ran with.
     pub seed: u64,
     /// Its experiments.
@@ -73,22 +74,43 @@ const REPLICATES: u32 = 1000;
 /// A tenth of the replicates, √10 times as wide intervals.
 const QUICK: [f64; 2] = [0.1, 3.17];
 
-/// Works out all experiments of a file; `progress` is told of each that is done.
+/// Who is told what goes on.
+#[derive(Clone, Copy)]
+pub struct Hears<'a> {
+    /// The title of each experiment that is done.
+    pub progress: &'a dyn Fn(&str),
+    /// What a scene has otherwise than its file means it, and receivers that are left out.
+    pub note: &'a dyn Fn(&str),
+}
+
+impl Hears<'static> {
+    /// Nobody.
+    pub const NOBODY: Self = Self { progress: &|_| (), note: &|_| () };
+}
+
+/// Works out all experiments of a file.
 ///
 /// # Errors
 /// Where the file is wrong, or an experiment asks for what cannot be.
-pub fn run(name: &str, text: &Text, settings: Settings, progress: &dyn Fn(&str)) -> Result<Reproduction, Error> {
+pub fn run(name: &str, text: &Text, settings: Settings, hears: Hears) -> Result<Reproduction, Error> {
     let file = text.parse()?;
-    let seed = settings.seed.unwrap_or(file.seed);
+    let seed = file.seed;
     let rows = file.experiment.iter().map(|experiment| experiment.get_ref().row.len()).sum::<usize>();
-    let bench = Bench { text, file: &file, settings, seed, level: LEVEL / rows.max(1) as f64 };
+    let bench = Bench { text, file: &file, settings, hears, seed, level: LEVEL / rows.max(1) as f64 };
     let mut sections = Vec::new();
     for experiment in &file.experiment {
         sections.push(bench.section(experiment)?);
-        progress(experiment.get_ref().title.as_deref().unwrap_or(name));
+        (hears.progress)(experiment.get_ref().title.as_deref().unwrap_or(name));
     }
     let said = |text: &Option<String>| text.clone().unwrap_or_default();
-    Ok(Reproduction { name: name.to_owned(), title: said(&file.title), source: said(&file.source), seed, sections })
+    Ok(Reproduction {
+        name: name.to_owned(),
+        title: said(&file.title),
+        source: said(&file.source),
+        derivation: said(&file.derivation),
+        seed,
+        sections,
+    })
 }
 
 /// What all experiments of a file share.
@@ -96,6 +118,7 @@ struct Bench<'a> {
     text: &'a Text,
     file: &'a File,
     settings: Settings,
+    hears: Hears<'a>,
     seed: u64,
     level: f64,
 }
@@ -103,9 +126,9 @@ struct Bench<'a> {
 impl Bench<'_> {
     fn section(&self, spanned: &Spanned<Experiment>) -> Result<Section, Error> {
         let experiment = spanned.get_ref();
-        let replicates = self.replicates(experiment)?;
+        let replicates = self.quickly(experiment.replicates.unwrap_or(REPLICATES));
         let run = Run { seed: self.seed, replicates, level: self.level };
-        let (findings, plots) = match Lighting::new(experiment, self.text, run)? {
+        let (findings, plots) = match Lighting::new(experiment, self.text, run, self.hears.note)? {
             Some(lighting) => self.of_light(experiment, spanned, &lighting)?,
             None => self.of_variable(experiment, spanned, run)?,
         };
@@ -117,15 +140,6 @@ impl Bench<'_> {
             rows: rows.collect::<Result<_, Error>>()?,
             plots,
         })
-    }
-
-    fn replicates(&self, experiment: &Experiment) -> Result<u32, Error> {
-        let Some(replicates) = &experiment.replicates else { return Ok(self.quickly(REPLICATES)) };
-        let most = 100_000_000;
-        if !(2..=most).contains(replicates.get_ref()) {
-            return Err(self.text.error(replicates.span(), &format!("replicates are 2 to {most}")));
-        }
-        Ok(self.quickly(*replicates.get_ref()))
     }
 
     fn quickly(&self, replicates: u32) -> u32 {
@@ -174,17 +188,30 @@ impl Bench<'_> {
         Ok((findings, plot.transpose().map_err(wrong)?.into_iter().collect()))
     }
 
-    fn row(&self, experiment: &Experiment, row: &Expected, mut finding: Finding) -> Result<Row, Error> {
-        let printed = |text: &Option<Spanned<String>>, truncated: bool| match text {
-            None => Ok(None),
-            Some(number) => Printed::read(number.get_ref(), truncated).map(Some).ok_or_else(|| {
-                self.text.error(number.span(), &format!("\"{}\" is not a number, such as \"0.916\"", number.get_ref()))
-            }),
-        };
-        let mut expected = [printed(&row.published, row.truncated)?, printed(&row.derived, false)?];
-        if let (Some(published), Some(error)) = (&mut expected[0], row.published_error) {
-            published.slack = published.slack.map(|slack| slack.max(error));
+    /// A number as a source prints it.
+    fn printed(&self, number: &Spanned<String>, truncated: bool) -> Result<Printed, Error> {
+        let none = || format!("\"{}\" is not a number, such as \"0.916\"", number.get_ref());
+        Printed::read(number.get_ref(), truncated).ok_or_else(|| self.text.error(number.span(), &none()))
+    }
+
+    /// A number with as many decimals as are known, or a formula of the experiment's constants.
+    fn derived(&self, number: &Spanned<String>, experiment: &Experiment) -> Result<Printed, Error> {
+        if let Some(printed) = Printed::read(number.get_ref(), false).filter(|_| number.get_ref().contains('.')) {
+            return Ok(printed);
         }
+        let wrong = |message: String| self.text.error(number.span(), &message);
+        let value = Formula::new(number.get_ref(), &[], &experiment.constants).map_err(wrong)?.at(&[]);
+        if value.is_finite() { Ok(Printed::computed(value)) } else { Err(wrong("it has no finite value".into())) }
+    }
+
+    fn row(&self, experiment: &Experiment, row: &Expected, mut finding: Finding) -> Result<Row, Error> {
+        let published = row.published.as_ref().map(|number| self.printed(number, row.truncated)).transpose()?;
+        let derived = row.derived.as_ref().map(|number| self.derived(number, experiment)).transpose()?;
+        let within = |printed: Option<Printed>, error: Option<f64>| match (printed, error) {
+            (Some(printed), Some(error)) => Some(printed.within(error)),
+            _ => printed,
+        };
+        let expected = [within(published, row.published_error), within(derived, row.derived_error)];
         if let Some(note) = &row.note {
             finding.note = Some(finding.note.map_or_else(|| note.clone(), |found| format!("{note}; {found}")));
         }

@@ -4,6 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
+use twoforms_comparison::request::{Asked, Colour, Grid, Viewpoint};
+
+use crate::either::{At, CameraName, Density};
+use crate::limits;
 
 /// A file of experiments.
 #[derive(Clone, Debug, Deserialize)]
@@ -19,7 +23,7 @@ pub struct File {
     #[serde(default)]
     pub seed: u64,
     /// The relative change of a result that its rows must notice, 0.05 unless said.
-    #[serde(default = "detects")]
+    #[serde(default = "detects", deserialize_with = "limits::above_zero_always")]
     pub detects: f64,
     /// The experiments in order.
     #[serde(default)]
@@ -62,51 +66,61 @@ pub struct Experiment {
     pub scene: Option<Spanned<String>>,
     /// Receivers by name; all that the scene has unless said.
     pub receivers: Option<Vec<Spanned<String>>>,
-    /// Receivers by place: x, y, z and a normal of any length.
-    pub at: Option<Vec<[f64; 6]>>,
-    /// ρ of a Lambertian surface under the receivers: radiance is asked, not irradiance.
-    pub albedo: Option<f32>,
+    /// Receivers by place: x, y, z and a normal of any length, or `@FILE.csv` with one in each line.
+    pub at: Option<Vec<Spanned<At>>>,
+    /// What the centres of these pixels see.
+    pub pixels: Option<Spanned<Vec<[u32; 2]>>>,
+    /// What the centres of so many cells across and down the camera's image see.
+    pub grid: Option<Spanned<Grid>>,
+    /// What is asked of the light; irradiance unless said.
+    pub quantity: Option<Spanned<Asked>>,
+    /// ρ for radiance where no surface lies under a receiver.
+    pub albedo: Option<Spanned<Colour>>,
+    /// Radiance without highlights.
+    pub lambert: bool,
+    /// Who looks: a camera of the scene by name or number, or `auto`.
+    pub camera: Option<Spanned<CameraName>>,
+    /// Who looks, by numbers: eye, target, and a vertical field of view in degrees.
+    pub view: Option<Spanned<Viewpoint>>,
+    /// Width of the image in pixels.
+    #[serde(deserialize_with = "limits::side")]
+    pub width: Option<u32>,
+    /// Height of the image in pixels.
+    #[serde(deserialize_with = "limits::side")]
+    pub height: Option<u32>,
     /// Strategies to compare.
     pub strategies: Option<Vec<Spanned<String>>>,
     /// What moves, as `PARAM=FROM:TO[:log]:STEPS`.
     pub sweep: Option<Spanned<String>>,
     /// Nested samples of light that was reflected once: [outer, inner].
+    #[serde(deserialize_with = "limits::nested")]
     pub nested: Option<[u32; 2]>,
+    /// The chance of any false alarm about a bias in `compare`.
+    #[serde(deserialize_with = "limits::share")]
+    pub level: Option<f64>,
+    /// The bias that still counts as none, as a share of the exact value.
+    #[serde(deserialize_with = "limits::share")]
+    pub margin: Option<f64>,
+    /// `compare` ends with exit code 3 where an estimator is biased.
+    pub check: bool,
 
     /// Samplers; independent unless said.
     pub samplers: Option<Vec<Spanned<String>>>,
     /// N: the sample counts.
+    #[serde(deserialize_with = "limits::counts")]
     pub samples: Option<Vec<u32>>,
     /// R: how often each is repeated.
-    pub replicates: Option<Spanned<u32>>,
+    #[serde(deserialize_with = "limits::replicates")]
+    pub replicates: Option<u32>,
+    /// Whether rows are measured by chance too, as they are unless said.
+    pub chance: Option<bool>,
     /// The relative change that rows must notice, where it differs from the file's.
+    #[serde(deserialize_with = "limits::above_zero")]
     pub detects: Option<f64>,
     /// What is drawn.
     pub figure: Option<Figure>,
     /// What is expected, in order.
     pub row: Vec<Expected>,
-}
-
-/// A density along an axis.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub enum Density {
-    /// `"uniform"`.
-    Named(String),
-    /// By its formulas.
-    Given(Given),
-}
-
-/// A density by its formulas in the axis's name; the inverse in `xi`.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Given {
-    /// p; the derivative of F unless said.
-    pub pdf: Option<String>,
-    /// F.
-    pub cdf: String,
-    /// F⁻¹; found numerically unless said.
-    pub inverse: Option<String>,
 }
 
 /// One row: a quantity, what is known of it from elsewhere, and what it depends on.
@@ -120,21 +134,28 @@ pub struct Expected {
     /// The source cuts digits off instead of rounding.
     #[serde(default)]
     pub truncated: bool,
-    /// The number as it follows from the derivation, in as many digits as are known.
+    /// The number as it follows from the derivation: a formula, or as many digits as are known.
     pub derived: Option<Spanned<String>>,
+    /// How far the derivation says its number may be off.
+    #[serde(default, deserialize_with = "limits::above_zero")]
+    pub derived_error: Option<f64>,
     /// What the row says in words.
     pub note: Option<String>,
     /// N.
+    #[serde(default, deserialize_with = "limits::count")]
     pub samples: Option<u32>,
     /// δ.
+    #[serde(default, deserialize_with = "limits::share")]
     pub delta: Option<f64>,
     /// [a', b'].
+    #[serde(default, deserialize_with = "limits::interval")]
     pub interval: Option<[f64; 2]>,
     /// Samples that are given.
     pub points: Option<Vec<f64>>,
     /// The rule.
     pub rule: Option<RuleName>,
     /// m: nodes along each axis; or the most evaluations in all, where dimensions grow.
+    #[serde(default, deserialize_with = "limits::count")]
     pub nodes: Option<u32>,
     /// Receiver, by name; the experiment's only one unless said.
     pub receiver: Option<Spanned<String>>,
@@ -145,14 +166,17 @@ pub struct Expected {
     /// Sampler, by name.
     pub sampler: Option<Spanned<String>>,
     /// Which of several, from 1.
-    pub which: Option<usize>,
+    #[serde(default, deserialize_with = "limits::count")]
+    pub which: Option<u32>,
     /// The integral whose variance crosses this one's.
     pub against: Option<Against>,
     /// What moves until they do.
     pub parameter: Option<Parameter>,
     /// How far the source says its number may be off.
+    #[serde(default, deserialize_with = "limits::above_zero")]
     pub published_error: Option<f64>,
     /// The relative change that the row must notice, where it differs from the experiment's.
+    #[serde(default, deserialize_with = "limits::above_zero")]
     pub detects: Option<f64>,
 }
 
@@ -220,6 +244,8 @@ pub enum Quantity {
     Rate,
     /// The parameter at which two strategies, or two integrals, have equal variance.
     Crossing,
+    /// How often two strategies have equal variance along a sweep.
+    Crossings,
     /// ∫ cosθ_y/r² dA over the targets that face a receiver: their solid angle.
     SolidAngle,
     /// L_e toward the eye.

@@ -1,24 +1,29 @@
 //! Scenes of experiments: where they come from, and which receivers and strategies are asked about.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
-use glam::DVec3;
 use toml::Spanned;
-use twoforms_comparison::place::{Place, Quantity, Reflection};
+use twoforms_comparison::place::Place;
+use twoforms_comparison::places::{About, Stay, places as find};
+use twoforms_comparison::points;
+use twoforms_comparison::request::{Asked, CameraChoice, Request, point};
 use twoforms_comparison::world::World;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_scene::Scene;
 
 use crate::catalogue;
+use crate::either::At;
 use crate::reading::{Error, Text, hint};
 use crate::schema::Experiment;
 
-/// The scene of a name: a file beside the text, else one of the program's own.
+/// The scene of a name: a file beside the text, else one of the program's own. `note` is told what was read otherwise than the
+/// file means it.
 ///
 /// # Errors
 /// Where there is none, or it cannot be read.
-pub fn world(name: &Spanned<String>, text: &Text) -> Result<World, Error> {
+pub fn world(name: &Spanned<String>, text: &Text, note: &dyn Fn(&str)) -> Result<World, Error> {
     let wrong = |message: String| text.error(name.span(), &message);
     let beside = text.folder.as_ref().map(|folder| folder.join(name.get_ref())).filter(|path| path.exists());
     let scene = match (beside, catalogue::scene(name.get_ref())) {
@@ -30,42 +35,83 @@ pub fn world(name: &Spanned<String>, text: &Text) -> Result<World, Error> {
             return Err(wrong(format!("there is no scene \"{}\" beside the file{hint}", name.get_ref())));
         }
     };
-    scene.and_then(World::new).map_err(|error| wrong(error.to_string()))
+    let scene = scene.map_err(|error| wrong(error.to_string()))?;
+    scene.warnings.iter().for_each(|warning| note(&format!("warning: {warning}")));
+    World::new(scene).map_err(|error| wrong(error.to_string()))
 }
 
-/// The receivers that an experiment names or places; all that the scene has where it does neither.
+/// Where an experiment measures, and what it asks there.
 ///
 /// # Errors
-/// Where a name is none of the scene's, or a normal has no length.
-pub fn places(experiment: &Experiment, world: &World, text: &Text) -> Result<Vec<Place>, Error> {
-    let quantity = experiment.albedo.map_or(Quantity::Irradiance, |rho| Quantity::Radiance {
-        surface: Reflection::Lambertian([rho; 3]),
-        emission: [0.0; 3],
-    });
-    let asked = |place: Place| Place { quantity, ..place };
-    let all = &world.scene.receivers;
-    let (names, at) = (experiment.receivers.as_deref(), experiment.at.as_deref());
-    if names.is_none() && at.is_none() {
-        return Ok(all.iter().map(Place::of_receiver).map(asked).collect());
+/// Where it says what cannot be, or its scene has no such place.
+pub fn places(experiment: &Experiment, world: &World, text: &Text, note: &dyn Fn(&str)) -> Result<Vec<Place>, Error> {
+    let request = request(experiment, text)?;
+    let stay = if experiment.sweep.is_some() { Stay::Moving } else { Stay::Put };
+    let to_blame = |about| span(experiment, world, about).unwrap_or_default();
+    find(world, &request, stay, note).map_err(|none| text.error(to_blame(none.about), &none.message))
+}
+
+/// Where light is measured and what is asked, in a file's keys.
+fn request(experiment: &Experiment, text: &Text) -> Result<Request, Error> {
+    let asked = experiment.quantity.as_ref().map_or(Asked::Irradiance, |asked| *asked.get_ref());
+    if let Some(albedo) = experiment.albedo.as_ref().filter(|_| asked == Asked::Irradiance) {
+        return Err(text.error(albedo.span(), "an albedo is for radiance: add quantity = \"radiance\""));
     }
-    let named = |name: &Spanned<String>| {
-        let found = all.iter().find(|receiver| receiver.name == *name.get_ref());
-        found.map(Place::of_receiver).ok_or_else(|| {
-            let names: Vec<&str> = all.iter().map(|receiver| receiver.name.as_str()).collect();
-            let hint = hint(name.get_ref(), &names);
-            text.error(name.span(), &format!("the scene has no receiver \"{}\"{hint}", name.get_ref()))
-        })
+    let mut points = Vec::new();
+    for at in experiment.at.iter().flatten() {
+        let wrong = |message: String| text.error(at.span(), &message);
+        match at.get_ref() {
+            At::Point(numbers) => points.push(point(*numbers).map_err(wrong)?),
+            At::File(path) => points.extend(points::read(&text.beside(path)).map_err(wrong)?),
+        }
+    }
+    let camera = CameraChoice {
+        camera: experiment.camera.as_ref().map(|camera| camera.get_ref().0.clone()),
+        view: experiment.view.as_ref().map(|view| *view.get_ref()),
+        width: experiment.width,
+        height: experiment.height,
     };
-    let placed = |(k, &[x, y, z, nx, ny, nz]): (usize, &[f64; 6])| {
-        let normal = DVec3::new(nx, ny, nz).try_normalize();
-        let message = format!("at {x}, {y}, {z}: the normal has no length");
-        let normal = normal.ok_or_else(|| Error { place: text.name.clone(), message })?;
-        let (name, position) = (format!("point {}", k + 1), DVec3::new(x, y, z));
-        Ok(Place { name, position, normal, quantity: Quantity::Irradiance, known: None })
+    Ok(Request {
+        asked,
+        lambert: experiment.lambert,
+        points,
+        receivers: experiment.receivers.iter().flatten().map(|name| name.get_ref().clone()).collect(),
+        pixels: experiment.pixels.as_ref().map(|pixels| pixels.get_ref().clone()).unwrap_or_default(),
+        grid: experiment.grid.as_ref().map(|grid| *grid.get_ref()),
+        albedo: experiment.albedo.as_ref().map(|albedo| *albedo.get_ref()),
+        camera,
+    })
+}
+
+/// Where the file says what is to blame.
+fn span(experiment: &Experiment, world: &World, about: About) -> Option<Range<usize>> {
+    let unknown = |name: &&Spanned<String>| !world.scene.receivers.iter().any(|of| of.name == *name.get_ref());
+    let named = || experiment.receivers.iter().flatten();
+    let camera = || experiment.camera.as_ref().map(Spanned::span).or(experiment.view.as_ref().map(Spanned::span));
+    let said = match about {
+        About::Points => experiment.at.as_ref().and_then(|at| at.first()).map(Spanned::span),
+        About::Receivers => named().find(unknown).or(named().next()).map(Spanned::span),
+        About::Pixels => experiment.pixels.as_ref().map(Spanned::span),
+        About::Grid => experiment.grid.as_ref().map(Spanned::span),
+        About::Camera => camera(),
+        About::Asked => experiment.quantity.as_ref().map(Spanned::span),
+        About::Nothing => None,
     };
-    let named = names.unwrap_or_default().iter().map(named);
-    let places = named.chain(at.unwrap_or_default().iter().enumerate().map(placed));
-    places.map(|place| place.map(asked)).collect()
+    said.or_else(|| experiment.scene.as_ref().map(Spanned::span))
+}
+
+/// The strategies that an experiment lists, each once; `None` where it lists none.
+///
+/// # Errors
+/// Where a name is no strategy's.
+pub fn listed(experiment: &Experiment, text: &Text) -> Result<Option<Vec<Strategy>>, Error> {
+    let Some(names) = &experiment.strategies else { return Ok(None) };
+    names.iter().map(|name| strategy(name, text)).collect::<Result<Vec<_>, _>>().map(|all| Some(once(&all)))
+}
+
+/// Drops repetitions.
+pub fn once<T: Copy + PartialEq>(items: &[T]) -> Vec<T> {
+    items.iter().enumerate().filter(|(k, item)| !items[..*k].contains(item)).map(|(_, item)| *item).collect()
 }
 
 /// A strategy by name.
@@ -91,5 +137,5 @@ pub fn sampler(name: &Spanned<String>, text: &Text) -> Result<Sampler, Error> {
 /// Where a name is no sampler's.
 pub fn samplers(experiment: &Experiment, text: &Text) -> Result<Vec<Sampler>, Error> {
     let Some(names) = &experiment.samplers else { return Ok(vec![Sampler::Independent]) };
-    names.iter().map(|name| sampler(name, text)).collect()
+    names.iter().map(|name| sampler(name, text)).collect::<Result<Vec<_>, _>>().map(|all| once(&all))
 }

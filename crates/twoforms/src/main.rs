@@ -4,28 +4,26 @@
 mod args;
 mod command;
 mod output;
-mod places;
-mod points;
 mod progress;
 mod run;
 
 use std::process::ExitCode;
 
+use clap::CommandFactory;
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
 use command::compare::Found;
 
 /// 0: done · 1: the input or the run failed · 2: wrong usage, as clap has it · 3: a check found a biased estimator, or a reproduction that differs.
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let (args, said) = Args::read();
     if let Some((command, why)) = args.command.misuse() {
         misused(command, why);
     }
     let nothing = |()| Found::Nothing;
     let done = match &args.command {
-        Command::Compare(compare) => command::compare::run(compare),
+        Command::Compare(compare) => command::compare::run(compare, &said),
         Command::Exact(exact) => command::exact::run(exact).map(nothing),
         Command::Render(render) => command::render::run(render).map(nothing),
         Command::Reproduce(reproduce) => command::reproduce::list_or_run(reproduce),

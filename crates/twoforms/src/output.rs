@@ -5,6 +5,7 @@ use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
 use twoforms_report::{Detail, Document, ExactDocument, ReportError, csv, file, json, table};
+use twoforms_reproduction::Text;
 
 use crate::args::Format;
 
@@ -58,12 +59,19 @@ pub struct Destination<'a, P> {
     format: Format,
     output: Option<&'a Path>,
     folder: Option<&'a Path>,
+    /// The experiment's file, written into the folder too.
+    experiment: Option<&'a Text>,
     what: PhantomData<P>,
 }
 
 impl<'a, P: Printed> Destination<'a, P> {
     /// Tries every place that will be written to.
-    pub fn new(format: Format, output: Option<&'a Path>, folder: Option<&'a Path>) -> Result<Self, ReportError> {
+    pub fn new(
+        format: Format,
+        output: Option<&'a Path>,
+        folder: Option<&'a Path>,
+        experiment: Option<&'a Text>,
+    ) -> Result<Self, ReportError> {
         if let Some(path) = output {
             file::check(path)?;
         }
@@ -72,8 +80,11 @@ impl<'a, P: Printed> Destination<'a, P> {
             for path in in_folder::<P>(folder) {
                 file::check(&path)?;
             }
+            if experiment.is_some() {
+                file::check(&folder.join(EXPERIMENT))?;
+            }
         }
-        Ok(Self { format, output, folder, what: PhantomData })
+        Ok(Self { format, output, folder, experiment, what: PhantomData })
     }
 
     /// Writes the folder, then the file or standard output.
@@ -82,6 +93,9 @@ impl<'a, P: Printed> Destination<'a, P> {
             let [json_path, csv_path] = in_folder::<P>(folder);
             file::save(&json_path, |out| results.json(out))?;
             file::save(&csv_path, |out| results.csv(out))?;
+            if let Some(text) = self.experiment {
+                save_text(&folder.join(EXPERIMENT), text)?;
+            }
         }
         write_to(self.output, |out| match self.format {
             Format::Json => results.json(out),
@@ -102,6 +116,14 @@ pub fn write_to(
     let mut out = BufWriter::new(io::stdout().lock());
     content(&mut out)?;
     Ok(out.flush()?)
+}
+
+/// The experiment's file among the results.
+const EXPERIMENT: &str = "experiment.toml";
+
+/// Writes a file of experiments as it was run.
+pub fn save_text(path: &Path, text: &Text) -> Result<(), ReportError> {
+    file::save(path, |out| Ok(out.write_all(text.text.as_bytes())?))
 }
 
 fn in_folder<P: Printed>(folder: &Path) -> [PathBuf; 2] {

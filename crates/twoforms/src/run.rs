@@ -4,12 +4,14 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use anyhow::{Context, Result};
+use twoforms_comparison::place::Place;
+use twoforms_comparison::places::{self, Stay};
 use twoforms_comparison::world::World;
 use twoforms_report::Provenance;
 use twoforms_report::provenance::{platform, rfc3339_utc};
 use twoforms_scene::Scene;
 
-use crate::args::RunArgs;
+use crate::args::{PlacesArgs, RunArgs};
 use crate::output::{self, counted};
 
 /// Loads a scene with at least one light, and says on standard error what was read otherwise than the file means it.
@@ -28,6 +30,12 @@ pub fn load(path: &Path, run: &RunArgs) -> Result<World> {
     Ok(world)
 }
 
+/// The places that the command line asks for, never none.
+pub fn places(world: &World, args: &PlacesArgs, run: &RunArgs, stay: Stay) -> Result<Vec<Place>> {
+    let request = args.request().map_err(anyhow::Error::msg)?;
+    Ok(places::places(world, &request, stay, &|line| note(run, line))?)
+}
+
 /// Says a line on standard error, unless that is to be quiet.
 pub fn note(run: &RunArgs, line: &str) {
     if !run.quiet {
@@ -42,11 +50,11 @@ pub fn set_threads(run: &RunArgs) -> Result<()> {
 }
 
 /// Where the results of this run come from.
-pub fn provenance(scene: &Scene, run: &RunArgs, started: SystemTime) -> Provenance {
+pub fn provenance(scene: &Scene, seed: u64, started: SystemTime) -> Provenance {
     Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: std::env::args_os().map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" "),
-        seed: run.seed.to_string(),
+        seed: seed.to_string(),
         scene: scene.path.display().to_string(),
         scene_sha256: scene.sha256.clone(),
         threads: rayon::current_num_threads(),

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::strategy::Strategy;
+use twoforms_reproduction::stage::once;
 
 /// Strategies, in the order given, each once.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,11 +60,6 @@ fn parsed<T: Copy + PartialEq + FromStr<Err: fmt::Display>>(text: &str) -> Resul
         _ => name.parse().map_err(|error: T::Err| error.to_string()),
     };
     names(text).into_iter().map(one).collect::<Result<Vec<T>, String>>().map(|items| once(&items))
-}
-
-/// Drops repetitions.
-pub fn once<T: Copy + PartialEq>(items: &[T]) -> Vec<T> {
-    items.iter().enumerate().filter(|(k, item)| !items[..*k].contains(item)).map(|(_, item)| *item).collect()
 }
 
 /// Splits at the commas outside brackets.

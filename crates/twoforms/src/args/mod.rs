@@ -9,14 +9,16 @@ mod whole;
 use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use clap::{ArgAction, Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use clap::parser::ValueSource;
+use clap::{ArgAction, Args as ClapArgs, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use twoforms_comparison::request::{Asked, Request};
 use twoforms_comparison::sweep::Sweep;
 use twoforms_estimator::sampler::Sampler;
 
-pub use camera::{CameraArgs, ImageSize};
-pub use list::{SamplerList, StrategyList, once};
-pub use receivers::{At, Pair, ReceiverArgs, point};
+pub use camera::CameraArgs;
+pub use list::{SamplerList, StrategyList};
+pub use receivers::ReceiverArgs;
 
 use whole::between;
 
@@ -31,6 +33,21 @@ pub struct Args {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Args {
+    /// The command line, and the options that it names for its command; a wrong one ends the program with code 2.
+    pub fn read() -> (Self, Vec<String>) {
+        let mut command = Self::command();
+        let matches = command.get_matches_mut();
+        let said = matches.subcommand().and_then(|(name, options)| {
+            let known = command.find_subcommand(name)?.get_arguments().map(|argument| argument.get_id().as_str());
+            let said = known.filter(|id| options.value_source(id) == Some(ValueSource::CommandLine));
+            Some(said.map(str::to_owned).collect())
+        });
+        let said = said.unwrap_or_default();
+        (Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()), said)
+    }
 }
 
 /// The commands.
@@ -59,12 +76,9 @@ pub enum Command {
 #[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Run")]
 pub struct RunArgs {
-    /// Seed: equal seeds give equal results, on any number of threads
-    #[arg(
-        long, default_value_t = 0, value_name = "N", allow_negative_numbers = true,
-        value_parser = between::<u64>(0, u64::MAX)
-    )]
-    pub seed: u64,
+    /// Seed: equal seeds give equal results, on any number of threads [default: that of an experiment's file, else 0]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = between::<u64>(0, u64::MAX))]
+    pub seed: Option<u64>,
     /// Threads [default: one per core]
     #[arg(
         short, long, alias = "nthreads", value_name = "N", allow_negative_numbers = true,
@@ -79,6 +93,13 @@ pub struct RunArgs {
     pub verbose: u8,
 }
 
+impl RunArgs {
+    /// The seed where no file says one.
+    pub fn seed(&self) -> u64 {
+        self.seed.unwrap_or(0)
+    }
+}
+
 /// What the light is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum QuantityArg {
@@ -88,12 +109,11 @@ pub enum QuantityArg {
     Radiance,
 }
 
-impl QuantityArg {
-    /// The word on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Irradiance => "irradiance",
-            Self::Radiance => "radiance",
+impl From<QuantityArg> for Asked {
+    fn from(quantity: QuantityArg) -> Self {
+        match quantity {
+            QuantityArg::Irradiance => Self::Irradiance,
+            QuantityArg::Radiance => Self::Radiance,
         }
     }
 }
@@ -144,13 +164,31 @@ impl PlacesArgs {
         }
         None
     }
+
+    /// What they ask for.
+    ///
+    /// # Errors
+    /// Where a file of receivers cannot be read.
+    pub fn request(&self) -> Result<Request, String> {
+        let receivers = &self.receivers;
+        Ok(Request {
+            asked: self.quantity.into(),
+            lambert: self.lambert,
+            points: receivers.points()?,
+            receivers: receivers.receiver.clone(),
+            pixels: receivers.pixel.iter().map(|pixel| pixel.0).collect(),
+            grid: receivers.grid,
+            albedo: receivers.albedo,
+            camera: self.camera.choice(),
+        })
+    }
 }
 
 impl Command {
     /// The command's word, and why options of it mean nothing together, if that is so.
     pub fn misuse(&self) -> Option<(&'static str, &'static str)> {
         match self {
-            Self::Compare(args) => Some(("compare", args.places.misuse()?)),
+            Self::Compare(args) if !args.is_file() => Some(("compare", args.places.misuse()?)),
             Self::Exact(args) => Some(("exact", args.places.misuse()?)),
             _ => None,
         }
@@ -255,14 +293,20 @@ pub struct CompareArgs {
     /// How to print.
     #[command(flatten)]
     pub print: PrintArgs,
-    /// Also write compare.json and compare.csv into this folder
+    /// Also write compare.json, compare.csv and, where an experiment's file was run, that file into this folder
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,
 }
 
+impl CompareArgs {
+    /// Whether an experiment's file is named instead of a scene.
+    pub fn is_file(&self) -> bool {
+        self.scene.extension().is_some_and(|extension| extension == "toml")
+    }
+}
+
 /// `reproduce`.
 #[derive(Debug, ClapArgs)]
-#[allow(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub struct ReproduceArgs {
     /// Reproductions by name, or files of experiments (.toml) [default: list them]
     #[arg(value_name = "NAME|FILE.toml")]
@@ -273,24 +317,15 @@ pub struct ReproduceArgs {
     /// A tenth of the replicates; rows then notice only three times as large a change
     #[arg(long)]
     pub quick: bool,
-    /// Seed [default: the file's, else 0]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = between::<u64>(0, u64::MAX))]
-    pub seed: Option<u64>,
     /// Set a field of the file, in all of its experiments or, as experiment.2.KEY, in one
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Threads [default: one per core]
-    #[arg(
-        short, long, alias = "nthreads", value_name = "N", allow_negative_numbers = true,
-        value_parser = between::<u16>(1, 1024)
-    )]
-    pub threads: Option<u16>,
-    /// No progress
-    #[arg(short, long)]
-    pub quiet: bool,
     /// Exit with 3 if a row differs from what is published, derived or exact
     #[arg(long)]
     pub check: bool,
+    /// How to run.
+    #[command(flatten)]
+    pub run: RunArgs,
     /// How to print.
     #[command(flatten)]
     pub print: PrintArgs,

@@ -4,37 +4,46 @@ use std::time::SystemTime;
 
 use anyhow::{Result, bail};
 use twoforms_comparison::experiment::Experiment;
+use twoforms_comparison::place::Place;
+use twoforms_comparison::places::Stay;
+use twoforms_comparison::request::Asked;
 use twoforms_comparison::result::{ReceiverResult, Verdict};
 use twoforms_comparison::verdict::Criteria;
+use twoforms_comparison::world::World;
 use twoforms_report::Document;
+use twoforms_reproduction::Text;
+use twoforms_reproduction::stage::once;
 
-use crate::args::{CompareArgs, once};
+use crate::args::CompareArgs;
 use crate::command::experiment;
 use crate::output::{self, Destination};
-use crate::places::Stay;
-use crate::{places, progress, run};
+use crate::{progress, run};
 
-/// Measures, and prints. `Found::Fault` where a check was asked for and an estimator is biased.
-pub fn run(args: &CompareArgs) -> Result<Found> {
-    if args.scene.extension().is_some_and(|extension| extension == "toml") {
-        return experiment::run(args, run);
-    }
-    if let Some(setting) = args.set.first() {
-        bail!("-D {setting} sets a field of an experiment's file, and {} is none", args.scene.display());
-    }
+/// What is measured where.
+pub struct Job {
+    /// The scene.
+    pub world: World,
+    /// Where.
+    pub places: Vec<Place>,
+    /// How.
+    pub experiment: Experiment,
+    /// What is asked.
+    pub asked: Asked,
+    /// Whether a bias is a fault.
+    pub check: bool,
+    /// The file that says so, with all that was set.
+    pub file: Option<Text>,
+}
+
+/// Measures, and prints; `said` are the options that the command line names. `Found::Fault` where a check was asked for and an
+/// estimator is biased.
+pub fn run(args: &CompareArgs, said: &[String]) -> Result<Found> {
     let started = SystemTime::now();
     run::set_threads(&args.run)?;
-    let world = run::load(&args.scene, &args.run)?;
-    let places = places::places(&world, &args.places, &args.run, Stay::Put)?;
-    let destination = Destination::new(args.print.format, args.print.output.as_deref(), args.out.as_deref())?;
-    let experiment = Experiment {
-        strategies: args.strategies.0.clone(),
-        samplers: args.sampler.0.clone(),
-        samples: once(&args.samples),
-        replicates: args.replicates,
-        seed: args.run.seed,
-        criteria: Criteria { level: args.criteria.level, margin: args.criteria.margin },
-    };
+    let job = if args.is_file() { experiment::job(args, said)? } else { by_options(args)? };
+    let Job { world, places, experiment, asked, check, file } = job;
+    let destination =
+        Destination::new(args.print.format, args.print.output.as_deref(), args.out.as_deref(), file.as_ref())?;
     check_size(&experiment, places.len())?;
     for (sampler, [n, rounded]) in experiment.rounded() {
         run::note(&args.run, &format!("{sampler}: N = {n} becomes {rounded}"));
@@ -43,15 +52,34 @@ pub fn run(args: &CompareArgs) -> Result<Found> {
     let bar = progress::bar(total, "samples", &args.run);
     let results = experiment.run(&world, &places, &|drawn| bar.inc(drawn))?;
     bar.finish_and_clear();
-    let provenance = run::provenance(&world.scene, &args.run, started)
-        .with("replicates", u64::from(args.replicates))
-        .with("quantity", args.places.quantity.name());
-    let biases = if args.criteria.check { biases(&results) } else { Vec::new() };
+    let provenance = run::provenance(&world.scene, experiment.seed, started)
+        .with("replicates", u64::from(experiment.replicates))
+        .with("quantity", asked.name());
+    let biases = if check { biases(&results) } else { Vec::new() };
     destination.write(&Document::new(provenance, results)?)?;
     for bias in &biases {
         output::say(bias);
     }
     Ok(if biases.is_empty() { Found::Nothing } else { Found::Fault })
+}
+
+/// The job that the command line's options describe.
+fn by_options(args: &CompareArgs) -> Result<Job> {
+    if let Some(setting) = args.set.first() {
+        bail!("-D {setting} sets a field of an experiment's file, and {} is none", args.scene.display());
+    }
+    let world = run::load(&args.scene, &args.run)?;
+    let places = run::places(&world, &args.places, &args.run, Stay::Put)?;
+    let experiment = Experiment {
+        strategies: args.strategies.0.clone(),
+        samplers: args.sampler.0.clone(),
+        samples: once(&args.samples),
+        replicates: args.replicates,
+        seed: args.run.seed(),
+        criteria: Criteria { level: args.criteria.level, margin: args.criteria.margin },
+    };
+    let asked = args.places.quantity.into();
+    Ok(Job { world, places, experiment, asked, check: args.criteria.check, file: None })
 }
 
 /// A line for every estimator that is found to be biased.

@@ -6,12 +6,14 @@ use std::time::{Instant, SystemTime};
 use anyhow::{Context, Result, bail};
 use indicatif::HumanCount;
 use twoforms_comparison::image::{Centre, Crop, Pixel, PixelFilter, Rendering, Shown};
+use twoforms_comparison::places;
+use twoforms_comparison::request::Asked;
 use twoforms_report::exr::write_exr;
 use twoforms_report::png::write_png;
 use twoforms_report::{Channel, Image, file};
 
-use crate::args::{FilterArg, ImageSize, QuantityArg, RenderArgs};
-use crate::{places, progress, run};
+use crate::args::{FilterArg, QuantityArg, RenderArgs};
+use crate::{progress, run};
 
 /// Renders, and writes both files.
 pub fn run(args: &RenderArgs) -> Result<()> {
@@ -19,8 +21,9 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     run::set_threads(&args.run)?;
     let paths = Paths::new(args)?;
     let world = run::load(&args.scene, &args.run)?;
-    let camera = places::camera(&world, &args.camera)?;
-    let rendering = rendering(args, args.camera.size(camera.aspect))?;
+    let choice = args.camera.choice();
+    let camera = places::camera(&world, &choice)?;
+    let rendering = rendering(args, choice.size(camera.aspect))?;
     let Crop { x0, x1, y0, y1 } = rendering.crop;
     let count = u64::from(x1 - x0) * u64::from(y1 - y0);
     if count > MOST_PIXELS {
@@ -32,13 +35,13 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let seconds = clock.elapsed().as_secs_f64();
     bar.finish_and_clear();
 
-    let provenance = run::provenance(&world.scene, &args.run, started)
+    let provenance = run::provenance(&world.scene, args.run.seed(), started)
         .with("strategy", rendering.strategy.to_string().as_str())
         .with("sampler", rendering.sampler.to_string().as_str())
         .with("spp", u64::from(rendering.spp))
         .with("light_samples", u64::from(rendering.light_samples))
         .with("camera", camera.name.as_str())
-        .with("quantity", args.quantity.name());
+        .with("quantity", Asked::from(args.quantity).name());
     let image = Image {
         width: rendering.crop.width() as usize,
         height: rendering.crop.height() as usize,
@@ -92,7 +95,7 @@ fn beside_us(scene: &Path) -> Result<PathBuf> {
     Ok(Path::new(name).with_extension("exr"))
 }
 
-fn rendering(args: &RenderArgs, [width, height]: ImageSize) -> Result<Rendering> {
+fn rendering(args: &RenderArgs, [width, height]: [u32; 2]) -> Result<Rendering> {
     let window = args.crop.map_or([0.0, 1.0, 0.0, 1.0], |crop| crop.0);
     let [x0, x1, y0, y1] = [(window[0], width), (window[1], width), (window[2], height), (window[3], height)]
         .map(|(fraction, pixels)| (fraction * f64::from(pixels)).round() as u32);
@@ -117,7 +120,7 @@ fn rendering(args: &RenderArgs, [width, height]: ImageSize) -> Result<Rendering>
             QuantityArg::Radiance if args.lambert => Shown::Diffuse,
             QuantityArg::Radiance => Shown::Radiance,
         },
-        seed: args.run.seed,
+        seed: args.run.seed(),
     })
 }
 

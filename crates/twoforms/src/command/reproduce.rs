@@ -6,29 +6,24 @@ use anyhow::{Result, bail};
 use twoforms_estimator::nearest::nearest;
 use twoforms_report::reproduction::svg;
 use twoforms_report::{ReproductionDocument, file};
-use twoforms_reproduction::{Reproduction, Settings, Text, Verdict, catalogue, run};
+use twoforms_reproduction::{self as reproduction, Hears, Reproduction, Settings, Text, Verdict, catalogue};
 
 use super::compare::Found;
 use super::experiment;
 use crate::args::{Format, ReproduceArgs};
-use crate::output;
+use crate::{output, run};
 
 /// Works out what is named, or all.
 fn run_all(args: &ReproduceArgs) -> Result<Found> {
-    let threads = args.threads.map_or(0, usize::from);
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+    run::set_threads(&args.run)?;
     let texts = texts(args)?;
     let places = Places::new(args, &texts)?;
-    let settings = Settings { seed: args.seed, quick: args.quick };
+    let settings = Settings { quick: args.quick };
     let mut done = Vec::new();
     for (name, text) in &texts {
-        let progress = |title: &str| {
-            if !args.quiet {
-                output::say(&format!("{name}: {title}"));
-            }
-        };
-        done.push(run(name, text, settings, &progress)?);
-        places.save_figures(&done[done.len() - 1])?;
+        let progress = |title: &str| run::note(&args.run, &format!("{name}: {title}"));
+        let note = |line: &str| run::note(&args.run, line);
+        done.push(reproduction::run(name, text, settings, Hears { progress: &progress, note: &note })?);
     }
     places.write(args, &texts, &done)?;
     let differs = |of: &Reproduction| of.rows().any(|row| row.verdict == Verdict::Differs);
@@ -58,19 +53,21 @@ fn list() -> String {
 /// What is to be run, by name.
 fn texts(args: &ReproduceArgs) -> Result<Vec<(String, Text)>> {
     let known: Vec<(&str, &str)> = catalogue::reproductions().collect();
-    let of = |name: &str, text: &str| Text { name: format!("{name}.toml"), folder: None, text: text.to_owned() };
+    let ours = |(name, text): &(&str, &str)| {
+        let text = Text { name: format!("{name}.toml"), folder: None, text: (*text).to_owned() };
+        Ok(((*name).to_owned(), experiment::with_settings(&text, &args.set, &args.run)?))
+    };
     if args.all {
-        let all = known.iter().map(|(name, text)| Ok(((*name).to_owned(), of(name, text).with(&args.set)?)));
-        return all.collect();
+        return known.iter().map(ours).collect();
     }
     let one = |what: &String| {
         let path = Path::new(what);
         if path.extension().is_some_and(|extension| extension == "toml") {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            return Ok((name, experiment::text(path, &args.set)?));
+            return Ok((name, experiment::with_settings(&experiment::text(path)?, &args.set, &args.run)?));
         }
-        if let Some((name, text)) = known.iter().find(|(name, _)| name == what) {
-            return Ok(((*name).to_owned(), of(name, text).with(&args.set)?));
+        if let Some(found) = known.iter().find(|(name, _)| name == what) {
+            return ours(found);
         }
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
         let near = nearest(what, &names).unwrap_or_default();
@@ -101,25 +98,14 @@ impl Places {
         Ok(Self { folder: args.out.clone() })
     }
 
-    fn save_figures(&self, done: &Reproduction) -> Result<()> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        let plots = done.sections.iter().flat_map(|section| &section.plots);
-        for (k, plot) in plots.enumerate() {
-            if let Some(svg) = svg(plot) {
-                let path = folder.join(format!("{}-{}.svg", done.name, k + 1));
-                file::save(&path, |out| Ok(out.write_all(svg.as_bytes())?))?;
-            }
-        }
-        Ok(())
-    }
-
     fn write(&self, args: &ReproduceArgs, texts: &[(String, Text)], done: &[Reproduction]) -> Result<()> {
         let document = ReproductionDocument::new(done)?;
         if let Some(folder) = &self.folder {
+            done.iter().try_for_each(|done| save_figures(done, folder))?;
             file::save(&folder.join("reproduce.json"), |out| document.write_json(out))?;
             file::save(&folder.join("reproduce.csv"), |out| document.write_csv(out))?;
             for (name, text) in texts {
-                file::save(&folder.join(format!("{name}.toml")), |out| Ok(out.write_all(text.text.as_bytes())?))?;
+                output::save_text(&folder.join(format!("{name}.toml")), text)?;
             }
         }
         output::write_to(args.print.output.as_deref(), |out| match args.print.format {
@@ -129,4 +115,15 @@ impl Places {
         })?;
         Ok(())
     }
+}
+
+fn save_figures(done: &Reproduction, folder: &Path) -> Result<()> {
+    let plots = done.sections.iter().flat_map(|section| &section.plots);
+    for (k, plot) in plots.enumerate() {
+        if let Some(svg) = svg(plot) {
+            let path = folder.join(format!("{}-{}.svg", done.name, k + 1));
+            file::save(&path, |out| Ok(out.write_all(svg.as_bytes())?))?;
+        }
+    }
+    Ok(())
 }

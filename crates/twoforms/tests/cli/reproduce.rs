@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{folder, has_all, names, scene, twoforms, written};
+use crate::support::{folder, has_all, names, run, scene, twoforms, written};
 
 const DIE: &str = "title = \"a die\"\n[[experiment]]\nvalues = [1, 2, 3, 4, 5, 6]\nreplicates = 20000\n\
                    [[experiment.row]]\nquantity = \"mean\"\npublished = \"3.5\"\n";
@@ -62,7 +62,26 @@ fn what_is_wrong_with_a_file_is_told_with_its_line_and_nothing_is_written() {
             ":4:1: unknown key \"replicats\"; did you mean \"replicates\"?",
         ),
         ("type", DIE.replace("20000", "\"many\""), ":4:14: invalid type: string \"many\""),
-        ("range", DIE.replace("20000", "1"), ":4:14: replicates are 2 to"),
+        ("range", DIE.replace("20000", "1"), ":4:14: needs a whole number from 2 to 100000000"),
+        ("sign", DIE.replace("20000", "-5"), ":4:14: "),
+        ("samples", DIE.replace("replicates = 20000", "samples = [4, 0]"), ":4:11: needs whole numbers from 1"),
+        ("none", DIE.replace("replicates = 20000", "samples = []"), ":4:11: needs whole numbers from 1"),
+        ("detects", format!("detects = 0\n{DIE}"), ":1:11: needs a number above 0"),
+        ("share", format!("{DIE}delta = 1.5\n"), ":8:9: needs a number between 0 and 1"),
+        ("interval", format!("{DIE}interval = [2, 1]\n"), ":8:12: needs [a', b'] with a' <= b'"),
+        ("nodes", format!("{DIE}nodes = 0\n"), ":8:9: needs a whole number from 1"),
+        ("nested", DIE.replace("replicates = 20000", "nested = [1, 1]"), ":4:10: needs [outer, inner]"),
+        ("derived", format!("{DIE}derived = \"7/\"\n"), ":8:11: \"7/\" is no formula"),
+        ("pole", format!("{DIE}derived = \"1/0\"\n"), ":8:11: it has no finite value"),
+        (
+            "density",
+            DIE.replace(
+                "values = [1, 2, 3, 4, 5, 6]",
+                "integrand = \"x\"\ndensity = [{ cdf = \"x\", invers = \"xi\" }]",
+            ),
+            ":4:25: unknown key \"invers\"; did you mean \"inverse\"?",
+        ),
+        ("missing", DIE.replace("quantity = \"mean\"", "note = \"?\""), "missing field `quantity`"),
         ("word", DIE.replace("mean", "meen"), ":6:12: unknown word \"meen\"; did you mean \"mean\"?"),
         ("number", DIE.replace("\"3.5\"", "\"three\""), ":7:13: \"three\" is not a number"),
         ("subject", DIE.replace("values = [1, 2, 3, 4, 5, 6]\n", ""), ":2:1: an experiment has one subject"),
@@ -102,8 +121,107 @@ fn compare_runs_an_experiment_in_a_file() {
     let row = &json["receivers"][0]["rows"][0];
     assert_eq!((row["samples"].as_u64(), row["replicates"].as_u64()), (Some(8), Some(60)));
     assert_eq!(names(&out), ["compare.csv", "compare.json", "experiment.toml"]);
-    twoforms(&format!("compare {path} --samples 8")).fails(&["says its samples", "-D samples="]);
+    twoforms(&format!("compare {path} --samples 8")).fails(&["--samples belongs into", "mine.toml", "-D samples="]);
+    twoforms(&format!("compare {path} --sampler sobol")).fails(&["--sampler belongs into", "its key samplers"]);
     twoforms("compare @square-light -D samples=8").fails(&["sets a field of an experiment's file"]);
     let wrong = written(&folder, "wrong.toml", &text.replace("area/uniform", "area/unform"));
     twoforms(&format!("compare {wrong}")).fails(&["wrong.toml:5:15", "area/uniform"]);
+}
+
+/// A key for every option: equal results, by their hash.
+#[test]
+fn a_file_says_what_options_say() {
+    let folder = folder("keys");
+    written(&folder, "points.csv", "0.1,0,0.2,0,1,0\n");
+    let hash = |line: &str| run(line.split(' ')).json()["results_sha256"].as_str().expect("a hash").to_owned();
+    let same = |name: &str, keys: &str, options: &str| {
+        let path =
+            written(&folder, &format!("{name}.toml"), &format!("[[experiment]]\nscene = \"cornell-box.gltf\"\n{keys}"));
+        let [file, line] = [format!("compare {path}"), format!("compare {} {options}", scene("cornell-box"))];
+        assert_eq!(
+            hash(&format!("{file} --quiet --format json")),
+            hash(&format!("{line} --quiet --format json")),
+            "{name}"
+        );
+    };
+    let few = "samples = [1, 4]\nreplicates = 20\nstrategies = [\"area/uniform\"]\n";
+    let options = "--samples 1,4 --replicates 20 --strategies area/uniform";
+    same("plain", few, options);
+    same(
+        "places",
+        &format!(
+            "{few}at = [[0.2, 0, 0.1, 0, 3, 0], \"@points.csv\"]\nreceivers = [\"floor-lit\"]\npixels = [[64, 64]]\n\
+             grid = [2, 2]\nheight = 128\nwidth = 128\nview = [0, 0.3, 2, 0, 0.2, 0, 40]\n"
+        ),
+        &format!(
+            "{options} --at 0.2,0,0.1,0,3,0 --at @{} --receiver floor-lit --pixel 64,64 --grid 2,2 --height 128 \
+             --width 128 --view 0,0.3,2,0,0.2,0,40",
+            folder.join("points.csv").display()
+        ),
+    );
+    same(
+        "radiance",
+        &format!(
+            "{few}quantity = \"radiance\"\nlambert = true\nalbedo = [0.2, 0.3, 0.4]\ncamera = 0\nat = [[0, 0.1, 0, 0, 1, 0]]\n"
+        ),
+        &format!("{options} --quantity radiance --lambert --albedo 0.2,0.3,0.4 --camera 0 --at 0,0.1,0,0,1,0"),
+    );
+    same(
+        "verdicts",
+        &format!("{few}samplers = [\"independent\", \"sobol\"]\nlevel = 0.2\nmargin = 0.5\n"),
+        &format!("{options} --sampler independent,sobol --level 0.2 --margin 0.5"),
+    );
+    same("seed", &format!("{few}receivers = [\"floor-lit\"]\n"), &format!("{options} --receiver floor-lit --seed 0"));
+}
+
+/// At a level near one an interval has next to no width, so that any estimate lies outside: seed 0, 800 samples.
+#[test]
+fn a_file_may_ask_for_a_check_and_its_seed_may_be_set() {
+    let text = "seed = 3\n[[experiment]]\nscene = \"cornell-box.gltf\"\nreceivers = [\"floor-lit\"]\n\
+                strategies = [\"area/uniform\"]\nsamples = [4]\nreplicates = 200\nlevel = 0.9999999\nmargin = 1e-9\n\
+                check = true\n";
+    let folder = folder("check-key");
+    let path = written(&folder, "check.toml", text);
+    let run = twoforms(&format!("compare {path} --quiet"));
+    assert_eq!(run.code, Some(3), "{}", run.err);
+    let out = folder.join("results");
+    let line = format!("compare {path} -D check=false --seed 0 --format json --out {}", out.display());
+    assert_eq!(twoforms(&line).json()["provenance"]["seed"], "0");
+    has_all(&fs::read_to_string(out.join("experiment.toml")).expect("a file"), &["seed = 0", "check = false"]);
+}
+
+#[test]
+fn what_a_file_asks_of_a_scene_in_vain_is_told_with_its_line() {
+    let folder = folder("in-vain");
+    let text = |keys: &str| format!("[[experiment]]\nscene = \"cornell-box.gltf\"\nreplicates = 9\n{keys}\n");
+    for (name, keys, says) in [
+        (
+            "receiver",
+            "receivers = [\"floor-lit\", \"flor-lit\"]",
+            ":4:27: the scene has no receiver \"flor-lit\"; did you mean",
+        ),
+        ("camera", "camera = \"mian\"", ":4:10: the scene has no camera \"mian\""),
+        ("pixel", "pixels = [[9999, 1]]", ":4:10: pixel 9999,1 lies outside the image"),
+        ("grid", "grid = [0, 3]", ":4:8: has 0 cells; a grid has 1 to"),
+        ("view", "view = [0, 0, 0, 0, 0, 0, 40]", ":4:8: the eye and what it looks at are the same point"),
+        ("width", "width = 0", ":4:9: needs a whole number from 1 to 65536"),
+        ("albedo", "quantity = \"radiance\"\nalbedo = 1.5", ":5:10: an albedo lies between 0 and 1"),
+        ("idle", "albedo = 0.5", ":4:10: an albedo is for radiance: add quantity = \"radiance\""),
+        ("quantity", "quantity = \"radience\"", ":4:12: unknown word \"radience\"; did you mean \"radiance\"?"),
+        ("level", "level = 2", ":4:9: needs a number between 0 and 1"),
+        ("normal", "at = [[0, 0, 0, 0, 0, 0]]", ":4:7: the normal has no direction"),
+        ("finite", "at = [[nan, 0, 0, 0, 1, 0]]", ":4:7: \"NaN\" is not a finite number"),
+        ("file", "at = [\"@none.csv\"]", ":4:7: cannot read"),
+        ("sampler", "samplers = [\"sobel\"]", ":4:13: "),
+        ("unknown", "sampler = \"sobol\"", ":4:1: unknown key \"sampler\"; did you mean \"samplers\"?"),
+    ] {
+        let (path, out) = (written(&folder, &format!("{name}.toml"), &text(keys)), folder.join(name));
+        for command in ["compare", "reproduce"] {
+            twoforms(&format!("{command} {path} --quiet --out {}", out.display())).fails(&[says]);
+            assert!(!out.join("compare.json").exists() && !out.join("reproduce.json").exists(), "{name}");
+        }
+    }
+    let set = written(&folder, "set.toml", &text(""));
+    twoforms(&format!("compare {set} -D replicates=0")).fails(&["-D replicates=0: needs a whole number from 2"]);
+    twoforms(&format!("compare {set} -D grid=[0,1]")).fails(&["-D grid=[0,1]: has 0 cells"]);
 }

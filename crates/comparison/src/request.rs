@@ -1,0 +1,205 @@
+//! What is asked of the light and where, as a command line or a file says it.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Where the light is measured, and what is asked there. Without any place: the scene's own receivers; without those, a grid
+/// through its camera.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Request {
+    /// What is asked.
+    pub asked: Asked,
+    /// Radiance without highlights.
+    pub lambert: bool,
+    /// Positions in metres and unit normals.
+    pub points: Vec<(DVec3, DVec3)>,
+    /// Receivers of the scene, by name.
+    pub receivers: Vec<String>,
+    /// What the centres of these pixels see.
+    pub pixels: Vec<[u32; 2]>,
+    /// What the centres of these cells of the image see.
+    pub grid: Option<Grid>,
+    /// ρ for radiance where no surface lies under a receiver.
+    pub albedo: Option<Colour>,
+    /// Who looks.
+    pub camera: CameraChoice,
+}
+
+/// What is asked of the light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Asked {
+    /// ∫ L_e cosθ dω: f_r = 1.
+    #[default]
+    Irradiance,
+    /// ∫ L_e f_r cosθ dω toward the camera, with the surface's own emission.
+    Radiance,
+}
+
+impl Asked {
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Irradiance => "irradiance",
+            Self::Radiance => "radiance",
+        }
+    }
+}
+
+/// Which camera looks, and how large its image is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CameraChoice {
+    /// The scene's camera of this name or number, or `auto`; the first unless said.
+    pub camera: Option<String>,
+    /// A camera given by numbers, in place of the scene's.
+    pub view: Option<Viewpoint>,
+    /// Width of the image in pixels; from the height and the camera's aspect unless said.
+    pub width: Option<u32>,
+    /// Height of the image in pixels.
+    pub height: Option<u32>,
+}
+
+/// Pixels on a side where nothing is said.
+const DEFAULT_SIZE: u32 = 512;
+/// Most pixels on a side.
+pub const MOST_PIXELS: u32 = 65536;
+
+impl CameraChoice {
+    /// Width and height in pixels of the image for a camera of this aspect (width over height).
+    pub fn size(&self, aspect: Option<f64>) -> [u32; 2] {
+        let aspect = aspect.unwrap_or(1.0);
+        let pixels = |size: f64| (size.round() as u32).clamp(1, MOST_PIXELS);
+        match (self.width, self.height) {
+            (Some(width), Some(height)) => [width, height],
+            (Some(width), None) => [width, pixels(f64::from(width) / aspect)],
+            (None, height) => {
+                let height = height.unwrap_or(DEFAULT_SIZE);
+                [pixels(f64::from(height) * aspect), height]
+            }
+        }
+    }
+}
+
+/// A camera at an eye that looks at a target, with a vertical field of view.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "[f64; 7]")]
+pub struct Viewpoint {
+    /// World position in metres.
+    pub eye: DVec3,
+    /// What it looks at, in metres.
+    pub target: DVec3,
+    /// Vertical field of view in radians.
+    pub field_of_view: f64,
+}
+
+impl TryFrom<[f64; 7]> for Viewpoint {
+    type Error = String;
+
+    /// Eye, target and the field of view in degrees.
+    fn try_from(numbers: [f64; 7]) -> Result<Self, String> {
+        let [ex, ey, ez, tx, ty, tz, degrees] = finite(numbers)?;
+        let (eye, target, field_of_view) = (DVec3::new(ex, ey, ez), DVec3::new(tx, ty, tz), degrees.to_radians());
+        if eye == target {
+            return Err("the eye and what it looks at are the same point".into());
+        }
+        if !(field_of_view > 0.0 && field_of_view < PI) {
+            return Err("the field of view must lie between 0 and 180 degrees".into());
+        }
+        Ok(Self { eye, target, field_of_view })
+    }
+}
+
+/// Cells over a camera's image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "[u32; 2]")]
+pub struct Grid(pub [u32; 2]);
+
+/// Cells of the largest grid: each is a receiver with all its rows in memory.
+const MOST_CELLS: u64 = 1 << 20;
+
+impl TryFrom<[u32; 2]> for Grid {
+    type Error = String;
+
+    fn try_from([columns, rows]: [u32; 2]) -> Result<Self, String> {
+        let cells = u64::from(columns) * u64::from(rows);
+        let within = (1..=MOST_CELLS).contains(&cells);
+        if within { Ok(Self([columns, rows])) } else { Err(format!("has {cells} cells; a grid has 1 to {MOST_CELLS}")) }
+    }
+}
+
+/// An albedo, linear RGB, each between 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "GreyOrRgb")]
+pub struct Colour(pub [f32; 3]);
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "an albedo is one number, or [r, g, b]")]
+enum GreyOrRgb {
+    Grey(f64),
+    Rgb([f64; 3]),
+}
+
+impl TryFrom<GreyOrRgb> for Colour {
+    type Error = String;
+
+    fn try_from(albedo: GreyOrRgb) -> Result<Self, String> {
+        match albedo {
+            GreyOrRgb::Grey(grey) => Self::try_from([grey; 3]),
+            GreyOrRgb::Rgb(rgb) => Self::try_from(rgb),
+        }
+    }
+}
+
+impl TryFrom<[f64; 3]> for Colour {
+    type Error = String;
+
+    fn try_from(rgb: [f64; 3]) -> Result<Self, String> {
+        let valid = rgb.iter().all(|c| (0.0..=1.0).contains(c));
+        if valid { Ok(Self(rgb.map(|c| c as f32))) } else { Err("an albedo lies between 0 and 1".into()) }
+    }
+}
+
+/// Position and unit normal of a receiver from x, y, z and a normal of any length.
+///
+/// # Errors
+/// Where a number is not finite, or the normal has no direction.
+pub fn point(numbers: [f64; 6]) -> Result<(DVec3, DVec3), String> {
+    let [x, y, z, nx, ny, nz] = finite(numbers)?;
+    let normal = DVec3::new(nx, ny, nz);
+    let unit = (normal / normal.abs().max_element()).try_normalize().ok_or("the normal has no direction")?;
+    Ok((DVec3::new(x, y, z), unit))
+}
+
+fn finite<const K: usize>(numbers: [f64; K]) -> Result<[f64; K], String> {
+    match numbers.iter().find(|number| !number.is_finite()) {
+        None => Ok(numbers),
+        Some(number) => Err(format!("\"{number}\" is not a finite number")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Colour, Grid, Viewpoint, point};
+    use glam::DVec3;
+
+    #[test]
+    fn a_normal_may_have_any_length_but_none() {
+        assert_eq!(point([-1.0, 2.0, -0.3, 0.0, 0.0, -7.0]), Ok((DVec3::new(-1.0, 2.0, -0.3), DVec3::NEG_Z)));
+        assert_eq!(point([0.0, 0.0, 0.0, 1e-300, 0.0, 0.0]).map(|(_, n)| n), Ok(DVec3::X));
+        assert!(point([0.0; 6]).is_err_and(|error| error.contains("no direction")));
+        assert!(point([f64::NAN, 0.0, 0.0, 0.0, 0.0, 1.0]).is_err_and(|error| error.contains("finite")));
+    }
+
+    #[test]
+    fn grids_colours_and_views_have_limits() {
+        assert_eq!(Grid::try_from([1024, 1024]), Ok(Grid([1024, 1024])));
+        assert!(Grid::try_from([0, 3]).is_err() && Grid::try_from([1024, 1025]).is_err());
+        assert_eq!(Colour::try_from([0.5; 3]), Ok(Colour([0.5; 3])));
+        assert!(Colour::try_from([0.5, 2.0, 0.0]).is_err() && Colour::try_from([f64::NAN; 3]).is_err());
+        let view = |z: f64, fov: f64| Viewpoint::try_from([0.0, 0.0, 0.0, 0.0, 0.0, z, fov]);
+        assert!(view(1.0, 40.0).is_ok() && view(0.0, 40.0).is_err());
+        assert!(view(1.0, 0.0).is_err() && view(1.0, 180.0).is_err());
+    }
+}

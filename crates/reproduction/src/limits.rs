@@ -1,0 +1,57 @@
+//! Limits of numbers in a file, held where they are read, so that errors point at them.
+
+use std::fmt::Display;
+
+use serde::de::{Deserialize, Deserializer, Error};
+use twoforms_comparison::request::MOST_PIXELS;
+
+/// Most replicates.
+const MOST_REPLICATES: u32 = 100_000_000;
+
+/// A value that is as it must be, or `needs` in the error.
+fn kept<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+    holds: impl Fn(&T) -> bool,
+    needs: impl Display,
+) -> Result<T, D::Error> {
+    let value = T::deserialize(from)?;
+    if holds(&value) { Ok(value) } else { Err(Error::custom(format!("needs {needs}"))) }
+}
+
+pub(crate) fn above_zero_always<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    kept(from, |&number: &f64| number > 0.0 && number.is_finite(), "a number above 0")
+}
+
+pub(crate) fn above_zero<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    above_zero_always(from).map(Some)
+}
+
+pub(crate) fn share<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    kept(from, |&share: &f64| 0.0 < share && share < 1.0, "a number between 0 and 1, such as 0.01").map(Some)
+}
+
+pub(crate) fn count<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
+    kept(from, |&count: &u32| count > 0, format!("a whole number from 1 to {}", u32::MAX)).map(Some)
+}
+
+pub(crate) fn counts<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec<u32>>, D::Error> {
+    let needs = format!("whole numbers from 1 to {}, at least one", u32::MAX);
+    kept(from, |counts: &Vec<u32>| !counts.is_empty() && counts.iter().all(|&count| count > 0), needs).map(Some)
+}
+
+pub(crate) fn replicates<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
+    let needs = format!("a whole number from 2 to {MOST_REPLICATES}");
+    kept(from, |count| (2..=MOST_REPLICATES).contains(count), needs).map(Some)
+}
+
+pub(crate) fn side<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
+    kept(from, |side| (1..=MOST_PIXELS).contains(side), format!("a whole number from 1 to {MOST_PIXELS}")).map(Some)
+}
+
+pub(crate) fn nested<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u32; 2]>, D::Error> {
+    kept(from, |&[outer, inner]: &[u32; 2]| outer >= 2 && inner >= 1, "[outer, inner] of at least [2, 1]").map(Some)
+}
+
+pub(crate) fn interval<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[f64; 2]>, D::Error> {
+    kept(from, |[low, high]: &[f64; 2]| low <= high, "[a', b'] with a' <= b'").map(Some)
+}

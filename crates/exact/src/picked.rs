@@ -177,7 +177,9 @@ fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Vec<Part>, Error> {
         let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
         [cos_x / w, w * d_omega]
     };
-    spread::by_cubature(index, seen, &bilinear.cut(seen), f)
+    // Near the plane of a target binary64 leaves few digits of the map, and smooth cubature has nothing to converge to.
+    let pieces = bilinear.cut(seen);
+    spread::by_cubature(index, seen, &pieces, f).or_else(|_| spread::by_rough_cubature(index, seen, &pieces, f))
 }
 
 /// cosθ_x = z/r and dω/dA = s/r³.

@@ -44,7 +44,9 @@ impl Bilinear {
             rest = beyond;
         }
         // What lies beyond all of them by rounding.
-        rest.iter().for_each(|polygon| cut.push(polygon));
+        for polygon in &rest {
+            cut.push(polygon);
+        }
         Cow::Owned(cut)
     }
 
@@ -89,7 +91,7 @@ fn within(mut part: Vec<DVec3>, sides: [DVec3; 3], tolerance: f64, beyond: &mut 
 
 /// A number brought to [0, 1], as samples bring it; 0 for what is not a number, which a corner has.
 fn share(x: f64) -> f64 {
-    x.max(0.0).min(1.0)
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 /// The two numbers that fall on y: the share of solid angle before it, and the share along what is left.

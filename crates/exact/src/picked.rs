@@ -269,9 +269,9 @@ fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>,
     let weights: Vec<f64> = match selection {
         Selection::Together | Selection::Uniform => vec![1.0; count],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
-        Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+        Selection::Contribution => per_group(&|seen| seen.emitted * seen.open.m10),
         Selection::Compensated(compensation) => {
-            let given = per_group(&|seen| seen.luminance * seen.open.m10);
+            let given = per_group(&|seen| seen.emitted * seen.open.m10);
             compensation.weights(&given, &per_group(&|seen| seen.open.m10))
         }
         Selection::Tree if draw == Draw::Uniform => by_tree,

@@ -145,6 +145,7 @@ fn square(corners: [DVec3; 4]) -> Facing {
         faces: true,
         area: 1.0,
         radiance: [1.0; 3],
+        emitted: 1.0,
         glow: None,
         blockers: vec![],
     }

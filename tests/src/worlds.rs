@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::world::World;
 use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_scene::{KnownAnswer, Scene};
 
 /// A scene file of the repository, read and built.
@@ -70,10 +71,13 @@ impl Stage {
 }
 
 impl Case<'_> {
-    /// The variance of one independent sample that the scene cites, RGB. Strategies of one density share it.
+    /// The variance of one independent sample that the scene cites, RGB. Strategies of one density share it, but for the one whose
+    /// samples count what lies behind the point drawn.
     pub fn variance(&self, strategy: Strategy) -> Option<[f64; 3]> {
         let cited = |name: String| self.known.variance.get(&name).copied();
-        cited(strategy.to_string()).or_else(|| cited(strategy.density_name()))
+        let marginal = |technique: Technique| technique.kind == Kind::HemisphereTowardLightsMarginal;
+        let shares = !strategy.techniques().into_iter().any(marginal);
+        cited(strategy.to_string()).or_else(|| cited(strategy.density_name()).filter(|_| shares))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 use twoforms_comparison::exactly;
-use twoforms_comparison::place::Place;
+use twoforms_comparison::place::{Place, Quantity, Reflection};
 use twoforms_comparison::world::World;
 use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
@@ -65,7 +65,11 @@ fn stacked() -> World {
 fn outcomes(world: &World, place: &Place, strategy: Strategy) -> Vec<Outcome> {
     let exact = exactly::at(world, place, &[strategy]);
     let view = View::new(&world.geometry, place.frame(), Effort::Gather);
-    let (query, prepared) = (Query::irradiance(&world.lights), strategy.prepare(&world.lights));
+    let query = match place.quantity {
+        Quantity::Radiance { surface: Reflection::Lambertian(albedo), .. } => Query::radiance(&world.lights, albedo),
+        _ => Query::irradiance(&world.lights),
+    };
+    let prepared = strategy.prepare(&world.lights);
     let samples = Samples::new(SEED, place, strategy, Sampler::Independent, N);
     let found = moments(&samples.of(&*prepared.at(&view, &query, &exact.known())), 0);
     let (n, v) = (f64::from(N), found.m2 / f64::from(N));
@@ -99,6 +103,19 @@ fn where_the_cosine_gives_enough_of_every_light_it_is_alone() {
         }
     }
     Family::new("teams that compensate below two ceilings", LEVEL, SEED, found).assert_holds(0.0);
+}
+
+/// What a coloured surface reflects of each light is not what the light is picked by.
+#[test]
+fn lights_are_picked_by_what_they_give_whatever_the_surface() {
+    let stage = worlds::stage("two-lights");
+    let quantity = Quantity::Radiance { surface: Reflection::Lambertian([0.95, 0.02, 0.02]), emission: [0.0; 3] };
+    let place = Place { quantity, ..stage.case("both").place };
+    let names = ["area/uniform@contribution", "area/uniform@power", "area/uniform@uniform", "area/luminance"];
+    let alone = names.iter().map(|name| name.parse().expect("a strategy"));
+    let strategies = alone.chain([team("balance", "area/solid-angle", "compensated", [1, 1])]);
+    let found = strategies.flat_map(|strategy| outcomes(&stage.world, &place, strategy)).collect();
+    Family::new("picking before a coloured surface", LEVEL, SEED, found).assert_holds(0.0);
 }
 
 /// A lamp that the horizon cuts: on it no technique of the team draws, and nothing arrives.

@@ -112,6 +112,7 @@ fn facing(x: DVec3, corners: &[DVec3], blockers: &[[DVec3; 3]]) -> Facing {
         faces: true,
         area,
         radiance: [15.6; 3],
+        emitted: 15.6,
         glow: None,
         blockers: blockers.iter().filter(|t| away(t)).map(|t| t.map(|v| v - x)).collect(),
     }

@@ -35,9 +35,17 @@ impl Bilinear {
             return Cow::Borrowed(&seen.pieces);
         }
         let mut cut = Pieces::default();
+        let mut rest: Vec<Vec<DVec3>> = seen.pieces.iter().map(<[DVec3]>::to_vec).collect();
         for (piece, _) in &self.0 {
-            let sides = sides(piece);
-            seen.pieces.iter().for_each(|polygon| cut.push(&within(polygon, sides, seen.facet.tolerance())));
+            let mut beyond = Vec::new();
+            for polygon in rest {
+                cut.push(&within(polygon, sides(piece), seen.facet.tolerance(), &mut beyond));
+            }
+            rest = beyond;
+        }
+        // What lies beyond all of them by rounding.
+        for polygon in &rest {
+            cut.push(polygon);
         }
         Cow::Owned(cut)
     }
@@ -47,7 +55,8 @@ impl Bilinear {
         let found = self.0.iter().map(|(piece, w)| (numbers(piece, y), w));
         let beyond = |[u, v]: [f64; 2]| [-u, u - 1.0, -v, v - 1.0].into_iter().fold(0.0, f64::max);
         let nearest = found.min_by(|(one, _), (other, _)| beyond(*one).total_cmp(&beyond(*other)));
-        let Some(([u, v], [w00, w10, w01, w11])) = nearest else { return 0.0 };
+        let Some((uv, [w00, w10, w01, w11])) = nearest else { return 0.0 };
+        let [u, v] = uv.map(share);
         (w00 * (1.0 - u) + w10 * u) * (1.0 - v) + (w01 * (1.0 - u) + w11 * u) * v
     }
 }
@@ -64,17 +73,25 @@ fn sides(piece: &Piece) -> [DVec3; 3] {
     }
 }
 
-/// The part of a convex polygon that no plane has on its back.
-fn within(polygon: &[DVec3], sides: [DVec3; 3], tolerance: f64) -> Vec<DVec3> {
-    let (mut part, mut halves) = (polygon.to_vec(), Halves::default());
+/// The part of a convex polygon that no plane has on its back, and those that one has.
+fn within(mut part: Vec<DVec3>, sides: [DVec3; 3], tolerance: f64, beyond: &mut Vec<Vec<DVec3>>) -> Vec<DVec3> {
+    let mut halves = Halves::default();
     for normal in sides {
         if part.is_empty() {
             break;
         }
         halves.cut(&part, normal, tolerance);
+        if !halves.back.is_empty() {
+            beyond.push(halves.back.clone());
+        }
         part.clone_from(&halves.front);
     }
     part
+}
+
+/// A number brought to [0, 1], as samples bring it; 0 for what is not a number, which a corner has.
+fn share(x: f64) -> f64 {
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 /// The two numbers that fall on y: the share of solid angle before it, and the share along what is left.

@@ -21,8 +21,10 @@ pub struct Facing {
     pub faces: bool,
     /// Area in m², once, whatever the sides.
     pub area: f64,
-    /// L_e toward x, linear RGB, W/(m² sr) or lm/(m² sr); its mean where the target emits by a texture.
+    /// L_e f_r toward x, linear RGB, W/(m² sr) or lm/(m² sr) for f_r = 1; its mean where the target emits by a texture.
     pub radiance: [f64; 3],
+    /// Luminance of L_e itself, whatever the surface at x makes of it: lights are picked by that.
+    pub emitted: f64,
     /// L_e toward x point by point, where the target emits by a texture.
     pub glow: Option<Glow>,
     /// Triangles that may stand between x and the target, in the same frame. A triangle whose plane
@@ -53,6 +55,7 @@ impl Facing {
         let points = self.corners.iter().chain(self.blockers.iter().flatten());
         let finite = points.into_iter().all(|p| p.is_finite())
             && self.area.is_finite()
+            && self.emitted.is_finite()
             && self.radiance.iter().all(|l| l.is_finite());
         if !finite {
             return Err(Error::NotFinite { target: self.target });

@@ -177,7 +177,9 @@ fn by_bilinear_cosine(index: usize, seen: &Seen) -> Result<Vec<Part>, Error> {
         let ([cos_x, d_omega], w) = (cos_x_and_d_omega(y, seen.facet.s), bilinear.at(y));
         [cos_x / w, w * d_omega]
     };
-    spread::by_cubature(index, seen, &bilinear.cut(seen), f)
+    // Near the plane of a target binary64 leaves few digits of the map, and smooth cubature has nothing to converge to.
+    let pieces = bilinear.cut(seen);
+    spread::by_cubature(index, seen, &pieces, f).or_else(|_| spread::by_rough_cubature(index, seen, &pieces, f))
 }
 
 /// cosθ_x = z/r and dω/dA = s/r³.
@@ -267,9 +269,9 @@ fn groups(sight: &Sight, draw: Draw, selection: Selection) -> Result<Vec<Group>,
     let weights: Vec<f64> = match selection {
         Selection::Together | Selection::Uniform => vec![1.0; count],
         Selection::Power => sight.lights.iter().map(|light| light.power).collect(),
-        Selection::Contribution => per_group(&|seen| seen.luminance * seen.open.m10),
+        Selection::Contribution => per_group(&|seen| seen.emitted * seen.open.m10),
         Selection::Compensated(compensation) => {
-            let given = per_group(&|seen| seen.luminance * seen.open.m10);
+            let given = per_group(&|seen| seen.emitted * seen.open.m10);
             compensation.weights(&given, &per_group(&|seen| seen.open.m10))
         }
         Selection::Tree if draw == Draw::Uniform => by_tree,

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use twoforms_estimator::lights::Lights;
+use twoforms_estimator::rgb::luminance;
 use twoforms_geometry::frame::Frame;
 use twoforms_geometry::geometry::Geometry;
 use twoforms_geometry::view::{Need, Prospect, Standing, prospects};
@@ -103,6 +104,7 @@ impl Gathering<'_> {
             faces: true,
             area: self.lights.areas()[index] * self.growth,
             radiance: std::array::from_fn(|c| f64::from(radiance[c]) * self.f_r[c]),
+            emitted: luminance(radiance.map(f64::from)),
             blockers,
         }
     }

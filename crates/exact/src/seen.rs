@@ -27,10 +27,12 @@ pub struct Seen {
     pub target: u32,
     /// The light it belongs to.
     pub light: usize,
-    /// L_e toward x, linear RGB; its mean over the target where that emits by a texture.
+    /// L_e f_r toward x, linear RGB; its mean over the target where that emits by a texture.
     pub radiance: [f64; 3],
     /// Luminance of that.
     pub luminance: f64,
+    /// Luminance of L_e itself.
+    pub emitted: f64,
     /// L_e toward x point by point, where it emits by a texture; `pieces` are then cut along its texels.
     pub glow: Option<Glow>,
     /// What x receives from it, and what it would were nothing in between.
@@ -115,6 +117,7 @@ impl Seen {
             light: facing.light as usize,
             radiance: facing.radiance,
             luminance: luminance(facing.radiance),
+            emitted: facing.emitted,
             glow: facing.glow.clone(),
             received,
             area,

@@ -9,7 +9,8 @@ use crate::samples::Samples;
 use crate::statistics::ChiSquare;
 
 /// χ² of samples, counted by cell, against the integrals of their density over the cells. Samples that are none have a
-/// cell of their own, the last, where 1 − ∫p is expected.
+/// cell of their own, the last, where what is left of one by the domain's mass is expected: patches know it no better than they
+/// resolve the density.
 pub fn chi_square<M: Measure, D: Density<M>>(
     view: &View,
     density: &D,
@@ -26,7 +27,8 @@ pub fn chi_square<M: Measure, D: Density<M>>(
     for patch in domain.patches() {
         expected[patch.cell] += n * value(density, view, &patch.at) * patch.measure;
     }
-    expected[none] = (n - expected.iter().sum::<f64>()).max(0.0);
+    // What lies below zero is rounding.
+    expected[none] = n * (1.0 - domain.mass()).max(0.0);
     ChiSquare::new(&observed, &expected)
 }
 

@@ -92,6 +92,7 @@ impl Scene {
                     faces: lamp.two_sided || side > 0.0,
                     area: outline.windows(2).skip(1).map(|e| area(&[outline[0], e[0], e[1]])).sum(),
                     radiance: lamp.radiance,
+                    emitted: twoforms_estimator::rgb::luminance(lamp.radiance),
                     glow: None,
                     blockers: blockers.map(|t| t.map(|v| frame.local(v))).collect(),
                 });

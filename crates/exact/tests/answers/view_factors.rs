@@ -68,6 +68,7 @@ pub fn polygon(radius: f64, h: f64, n: usize) -> Sight {
         faces: true,
         area,
         radiance: [1.0; 3],
+        emitted: 1.0,
         glow: None,
         blockers: Vec::new(),
     };

@@ -8,8 +8,8 @@ use crate::reading::{Error, Text, hint};
 const OF_FILE: [&str; 5] = ["title", "source", "derivation", "seed", "detects"];
 
 impl Text {
-    /// The same text with fields set: `replicates=100`, `experiment.2.samples=[1, 4]`. A key of experiments is set in all of them,
-    /// unless its path counts one out, from 1. What is no TOML value is a string. All else stays where it is, comments too.
+    /// The same text with fields set: `replicates=100`, `experiment.2.row.1.samples=4`. A key of experiments is set in all of
+    /// them, unless its path counts one out, from 1. What is no TOML value is a string. All else stays where it is, comments too.
     ///
     /// # Errors
     /// Where the text is wrong, a path leads nowhere, or a key cannot have its value.
@@ -33,42 +33,44 @@ fn parsed(value: &str) -> Value {
     value.parse().unwrap_or_else(|_| Value::from(value))
 }
 
-fn set(table: &mut Table, key: &str, value: &Value) -> Result<(), String> {
-    if OF_FILE.contains(&key) {
-        return set_here(table, key, value);
+fn set(file: &mut Table, key: &str, value: &Value) -> Result<(), String> {
+    if OF_FILE.contains(&key) || key.starts_with("experiment.") {
+        return set_below(file, key, value);
     }
-    let experiments = table.get_mut("experiment").and_then(Item::as_array_of_tables_mut);
+    let experiments = file.get_mut("experiment").and_then(Item::as_array_of_tables_mut);
     let experiments = experiments.ok_or("the file has no [[experiment]]")?;
-    let (chosen, path) = chosen(key, experiments)?;
-    for (k, experiment) in experiments.iter_mut().enumerate() {
-        if chosen.is_none_or(|number| number == k + 1) {
-            set_below(experiment, path, value)?;
-        }
-    }
-    Ok(())
+    experiments.iter_mut().try_for_each(|experiment| set_below(experiment, key, value))
 }
 
-/// The experiment that a key counts out, if it does, and the key within it.
-fn chosen<'a>(key: &'a str, experiments: &ArrayOfTables) -> Result<(Option<usize>, &'a str), String> {
-    let Some(rest) = key.strip_prefix("experiment.") else { return Ok((None, key)) };
-    let (number, path) = rest.split_once('.').ok_or("an experiment is counted out as experiment.1.key")?;
-    let number: usize = number.parse().map_err(|_| format!("\"{number}\" is no number of an experiment"))?;
-    let count = experiments.len();
-    if (1..=count).contains(&number) {
-        Ok((Some(number), path))
-    } else {
-        Err(format!("the file counts its experiments from 1 to {count}"))
-    }
-}
-
+/// Sets what a path leads to: `row.2.samples` counts tables from 1.
 fn set_below(table: &mut Table, path: &str, value: &Value) -> Result<(), String> {
     let Some((head, rest)) = path.split_once('.') else { return set_here(table, path, value) };
     let known: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
     let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    let below = table.get_mut(head).and_then(Item::as_table_like_mut);
-    let below = below.ok_or_else(|| format!("there is no table \"{head}\"{}", hint(head, &known)))?;
-    below.insert(rest, Item::Value(value.clone()));
-    Ok(())
+    match table.get_mut(head) {
+        Some(Item::ArrayOfTables(tables)) => {
+            let (counted, path) = counted(head, rest, tables)?;
+            set_below(counted, path, value)
+        }
+        Some(item) if item.is_table_like() => {
+            item[rest] = Item::Value(value.clone());
+            Ok(())
+        }
+        _ => Err(format!("there is no table \"{head}\"{}", hint(head, &known))),
+    }
+}
+
+/// The table that a path counts out, and the path within it.
+fn counted<'t, 'p>(
+    name: &str,
+    path: &'p str,
+    tables: &'t mut ArrayOfTables,
+) -> Result<(&'t mut Table, &'p str), String> {
+    let (number, path) = path.split_once('.').ok_or_else(|| format!("one is counted out as {name}.1.key"))?;
+    let place = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+    let count = tables.len();
+    let table = place.and_then(|place| tables.get_mut(place));
+    table.map(|table| (table, path)).ok_or_else(|| format!("\"{number}\" counts out no {name}: there are 1 to {count}"))
 }
 
 /// Sets a key; one that is new goes before the table's own tables.
@@ -107,10 +109,10 @@ mod tests {
     #[test]
     fn what_is_not_set_stays_as_it_was_written() {
         let one = text("# mine\n[[experiment]]\nvalues = [1, 2] # faces\n[[experiment.row]]\nquantity = \"mean\"\n");
-        let set =
-            one.with(&["seed=3".to_owned(), "values=[4]".to_owned(), "replicates=9".to_owned()]).expect("settings");
-        let expected = "# mine\nseed = 3\n[[experiment]]\nvalues = [4] # faces\nreplicates = 9\n\
-                        [[experiment.row]]\nquantity = \"mean\"\n";
+        let settings = ["seed=3", "values=[4]", "replicates=9", "experiment.1.row.1.note=n"].map(str::to_owned);
+        let set = one.with(&settings).expect("settings");
+        let expected = "seed = 3\n# mine\n[[experiment]]\nvalues = [4] # faces\nreplicates = 9\n\
+                        [[experiment.row]]\nquantity = \"mean\"\nnote = \"n\"\n";
         assert_eq!(set.text.replace("\n\n", "\n"), expected);
     }
 
@@ -121,7 +123,7 @@ mod tests {
         assert_eq!(said("replicates"), "-D replicates: the form is key=value");
         assert_eq!(
             said("experiment.3.values=[1]"),
-            "-D experiment.3.values=[1]: the file counts its experiments from 1 to 1"
+            "-D experiment.3.values=[1]: \"3\" counts out no experiment: there are 1 to 1"
         );
         assert_eq!(said("replicats=7"), "-D replicats=7: unknown key \"replicats\"; did you mean \"replicates\"?");
         assert!(

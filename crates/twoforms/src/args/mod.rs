@@ -317,7 +317,7 @@ pub struct ReproduceArgs {
     /// A tenth of the replicates; rows then notice only three times as large a change
     #[arg(long)]
     pub quick: bool,
-    /// Set a field of the file, in all of its experiments or, as experiment.2.KEY, in one
+    /// Set a field of the file, in all of its experiments or, as experiment.2.KEY, in one, or experiment.2.row.1.KEY
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Exit with 3 if a row differs from what is published, derived or exact

@@ -26,6 +26,9 @@ fn run_all(args: &ReproduceArgs) -> Result<Found> {
         done.push(reproduction::run(name, text, settings, Hears { progress: &progress, note: &note })?);
     }
     places.write(args, &texts, &done)?;
+    if args.out.is_none() && args.print.format == Format::Table {
+        run::note(&args.run, "note: --out DIR writes the figures, too, with the numbers as JSON and CSV");
+    }
     let differs = |of: &Reproduction| of.rows().any(|row| row.verdict == Verdict::Differs);
     Ok(if args.check && done.iter().any(differs) { Found::Fault } else { Found::Nothing })
 }

@@ -79,8 +79,9 @@ pub fn by_cells(index: usize, seen: &Seen, glow: &Glow, total: f64) -> Result<Ve
 /// Relative errors of the mass, and of mean and spread.
 const FINE: [f64; 2] = [1e-11, 1e-9];
 const ROUGH: [f64; 2] = [1e-3, 1e-3];
-/// What may lie beyond a curve between a cell's edge and its outermost nodes, where no rule sees it: a share of the whole.
-const MISSED: f64 = 1e-4;
+/// What may lie beyond a curve between a cell's edge and its outermost nodes, where no rule sees it: a share of the whole. Half of
+/// this is the most that was seen, by means that are known.
+const MISSED: f64 = 1e-3;
 
 /// To which they are computed.
 fn fineness(manner: Manner) -> [f64; 2] {

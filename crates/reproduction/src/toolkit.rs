@@ -89,8 +89,8 @@ impl Toolkit<'_> {
             if farthest > ROUNDING * self.exact.mean.abs() {
                 return Err(format!("a sample lies {farthest:.1e} from the expected value, where none should vary"));
             }
-            let note =
-                Some(format!("no sample of {} lies farther than {farthest:.1e} from the expected value", values.len()));
+            let which = if farthest == 0.0 { "differs" } else { "lies farther than some rounding" };
+            let note = Some(format!("no sample of {} {which} from the expected value", values.len()));
             return Ok(Finding { exact, note, ..Finding::default() });
         }
         let measured = spread(&values, self.level)?;

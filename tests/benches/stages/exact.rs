@@ -9,15 +9,15 @@ use twoforms_tests::worlds;
 use crate::clock::CpuTime;
 use crate::{SCENE, cases};
 
-/// The irradiance alone, the variances that have a closed form, and one that needs cubature.
+/// The irradiance alone, the variances of all techniques, and that of a team.
 pub fn benches(criterion: &mut Criterion<CpuTime>) {
     let stage = worlds::stage(SCENE);
     let all = with_formula();
-    let closed: Vec<Strategy> =
+    let techniques: Vec<Strategy> =
         all.into_iter().filter(|s| !matches!(s, Strategy::Mis(..) | Strategy::Mixture(..))).collect();
     let balance = [Strategy::Mis(Weighting::Balance, Team::default())];
     let works: [(&str, &[Strategy]); 3] =
-        [("irradiance", &[]), ("and closed variances", &closed), ("and mis/balance", &balance)];
+        [("irradiance", &[]), ("and the variances of all techniques", &techniques), ("and mis/balance", &balance)];
     let mut group = criterion.benchmark_group("exact");
     for case in cases(&stage) {
         for (what, strategies) in works {

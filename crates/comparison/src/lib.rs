@@ -4,6 +4,7 @@ mod answer;
 mod clock;
 mod crossing;
 pub mod error;
+mod exact_result;
 pub mod exactly;
 pub mod experiment;
 pub mod image;

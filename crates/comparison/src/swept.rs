@@ -1,54 +1,16 @@
 //! Exact light along a sweep, and where two strategies' variances are equal.
 
 use rayon::prelude::*;
-use serde::Serialize;
 use twoforms_estimator::strategy::{Strategy, Team, Weighting};
 use twoforms_estimator::technique::Kind;
 
 use crate::crossing::{Difference, Root, Sample, roots};
-use crate::exactly::{ExactLight, ExactResult, ExactVariance};
+pub use crate::exact_result::{Crossing, Step, Swept};
+use crate::exact_result::{ExactLight, ExactResult, ExactVariance};
 use crate::motion::Stage;
 use crate::place::Place;
-use crate::sweep::{Parameter, Spacing, Sweep};
+use crate::sweep::Sweep;
 use crate::world::World;
-
-/// What one receiver meets along a sweep.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Swept {
-    /// What moves.
-    pub parameter: Parameter,
-    /// Its first value.
-    pub from: f64,
-    /// Its last value.
-    pub to: f64,
-    /// How steps are spaced.
-    pub scale: Spacing,
-    /// The values in order, and the light at each.
-    pub steps: Vec<Step>,
-    /// Where two variances are equal, in the order of the sweep.
-    pub crossings: Vec<Crossing>,
-}
-
-/// One value of the parameter, and the light there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Step {
-    /// The value.
-    pub at: f64,
-    /// The light.
-    #[serde(flatten)]
-    pub light: ExactLight,
-}
-
-/// A value of the parameter at which two variances (of the luminance) are equal, one below the other on either side.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Crossing {
-    /// The two strategies' canonical names.
-    pub strategies: [String; 2],
-    /// The value.
-    pub at: f64,
-    /// How far the error bounds of the two variances may move it.
-    pub error_bound: f64,
-}
 
 /// Works out every receiver at rest and along the sweep, in parallel on rayon's threads; `progress` is told of each step
 /// of each receiver that is done.

@@ -84,7 +84,7 @@ impl CameraChoice {
 
 /// A camera at an eye that looks at a target, with a vertical field of view.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "[f64; 7]")]
+#[serde(try_from = "Vec<f64>")]
 pub struct Viewpoint {
     /// World position in metres.
     pub eye: DVec3,
@@ -92,6 +92,15 @@ pub struct Viewpoint {
     pub target: DVec3,
     /// Vertical field of view in radians.
     pub field_of_view: f64,
+}
+
+impl TryFrom<Vec<f64>> for Viewpoint {
+    type Error = String;
+
+    fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
+        let seven = <[f64; 7]>::try_from(numbers);
+        seven.map_err(|_| "needs seven numbers: an eye, what it looks at, and degrees".to_owned())?.try_into()
+    }
 }
 
 impl TryFrom<[f64; 7]> for Viewpoint {
@@ -113,11 +122,19 @@ impl TryFrom<[f64; 7]> for Viewpoint {
 
 /// Cells over a camera's image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "[u32; 2]")]
+#[serde(try_from = "Vec<u32>")]
 pub struct Grid(pub [u32; 2]);
 
 /// Cells of the largest grid: each is a receiver with all its rows in memory.
 const MOST_CELLS: u64 = 1 << 20;
+
+impl TryFrom<Vec<u32>> for Grid {
+    type Error = String;
+
+    fn try_from(numbers: Vec<u32>) -> Result<Self, String> {
+        <[u32; 2]>::try_from(numbers).map_err(|_| "needs two numbers: [columns, rows]".to_owned())?.try_into()
+    }
+}
 
 impl TryFrom<[u32; 2]> for Grid {
     type Error = String;

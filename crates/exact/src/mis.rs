@@ -123,7 +123,8 @@ pub fn mixture(sight: &Sight, share: f64, pair: [Technique; 2]) -> Result<Law, E
         let pieces = cut([&one, &other].into_iter(), index, seen);
         law.parts.extend(by_cubature(index, seen, &pieces, |y| {
             let p = mix(one.per_area(index, seen, y), other.per_area(index, seen, y));
-            [seen.g(y) / p, p]
+            // On the horizon itself nothing arrives, and nothing may be drawn.
+            [if p > 0.0 { seen.g(y) / p } else { 0.0 }, p]
         })?);
     }
     Ok(law)

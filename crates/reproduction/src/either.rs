@@ -93,7 +93,9 @@ impl<'de> Visitor<'de> for OfAt {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, numbers: A) -> Result<At, A::Error> {
-        <[f64; 6]>::deserialize(SeqAccessDeserializer::new(numbers)).map(At::Point)
+        let numbers = Vec::deserialize(SeqAccessDeserializer::new(numbers))?;
+        let wrong = |_| A::Error::custom("needs six numbers: [x, y, z, nx, ny, nz]");
+        numbers.try_into().map(At::Point).map_err(wrong)
     }
 }
 

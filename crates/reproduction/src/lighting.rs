@@ -171,7 +171,8 @@ impl Lighting {
         }
         // Where nothing varies there is only what binary32 arithmetic leaves: no interval holds that against zero.
         if exact.is_some_and(|[value, error]| value.abs() <= error) {
-            let (mean, most) = (row.mean.luminance, NO_VARIANCE);
+            let mean = row.mean.luminance;
+            let most = exact.map_or(0.0, |[value, error]| (value.abs() + error) / (mean * mean)).max(NO_VARIANCE);
             let share = row.variance_of_mean.unwrap_or(f64::NAN) * n / (mean * mean);
             if share > most {
                 return Err(format!(

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use serde::de::{Deserialize, Deserializer, Error};
+use toml::Spanned;
 use twoforms_comparison::request::MOST_PIXELS;
 
 /// Most replicates.
@@ -48,10 +49,36 @@ pub(crate) fn side<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D:
     kept(from, |side| (1..=MOST_PIXELS).contains(side), format!("a whole number from 1 to {MOST_PIXELS}")).map(Some)
 }
 
+pub(crate) fn names<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec<Spanned<String>>>, D::Error> {
+    kept(from, |names: &Vec<_>| !names.is_empty(), "at least one name; leave the key out for those by default")
+        .map(Some)
+}
+
+/// Two numbers, no more: an array of two would be read from the first of many.
+fn pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D, needs: &str) -> Result<[T; 2], D::Error> {
+    let numbers = Vec::deserialize(from)?;
+    numbers.try_into().map_err(|_| Error::custom(format!("needs {needs}")))
+}
+
 pub(crate) fn nested<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u32; 2]>, D::Error> {
-    kept(from, |&[outer, inner]: &[u32; 2]| outer >= 2 && inner >= 1, "[outer, inner] of at least [2, 1]").map(Some)
+    const NEEDS: &str = "[outer, inner] of at least [2, 1]";
+    let [outer, inner] = pair(from, NEEDS)?;
+    if outer >= 2 && inner >= 1 { Ok(Some([outer, inner])) } else { Err(Error::custom(format!("needs {NEEDS}"))) }
 }
 
 pub(crate) fn interval<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[f64; 2]>, D::Error> {
-    kept(from, |[low, high]: &[f64; 2]| low <= high, "[a', b'] with a' <= b'").map(Some)
+    const NEEDS: &str = "[a', b'] with a' <= b'";
+    let [low, high] = pair(from, NEEDS)?;
+    if low <= high { Ok(Some([low, high])) } else { Err(Error::custom(format!("needs {NEEDS}"))) }
+}
+
+/// Pairs of numbers, and where the file has them.
+type Pairs = Spanned<Vec<[u32; 2]>>;
+
+pub(crate) fn pixels<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Pairs>, D::Error> {
+    let read = Spanned::<Vec<Vec<u32>>>::deserialize(from)?;
+    let span = read.span();
+    let pixels = read.into_inner().into_iter().map(TryInto::try_into).collect::<Result<_, _>>();
+    let wrong = |_| Error::custom("needs pixels as [x, y] each");
+    Ok(Some(Spanned::new(span, pixels.map_err(wrong)?)))
 }

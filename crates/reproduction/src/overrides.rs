@@ -56,7 +56,8 @@ fn set_below(table: &mut Table, path: &str, value: &Value) -> Result<(), String>
             item[rest] = Item::Value(value.clone());
             Ok(())
         }
-        _ => Err(format!("there is no table \"{head}\"{}", hint(head, &known))),
+        Some(_) => Err(format!("\"{head}\" holds no table: set all of it, as {head}=…")),
+        None => Err(format!("there is no table \"{head}\"{}", hint(head, &known))),
     }
 }
 

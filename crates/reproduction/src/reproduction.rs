@@ -143,7 +143,11 @@ impl Bench<'_> {
     }
 
     fn quickly(&self, replicates: u32) -> u32 {
-        if self.settings.quick { ((f64::from(replicates) * QUICK[0]) as u32).max(100) } else { replicates }
+        if self.settings.quick {
+            ((f64::from(replicates) * QUICK[0]) as u32).max(100).min(replicates)
+        } else {
+            replicates
+        }
     }
 
     fn of_light(

@@ -69,6 +69,7 @@ pub struct Experiment {
     /// Receivers by place: x, y, z and a normal of any length, or `@FILE.csv` with one in each line.
     pub at: Option<Vec<Spanned<At>>>,
     /// What the centres of these pixels see.
+    #[serde(deserialize_with = "limits::pixels")]
     pub pixels: Option<Spanned<Vec<[u32; 2]>>>,
     /// What the centres of so many cells across and down the camera's image see.
     pub grid: Option<Spanned<Grid>>,
@@ -89,6 +90,7 @@ pub struct Experiment {
     #[serde(deserialize_with = "limits::side")]
     pub height: Option<u32>,
     /// Strategies to compare.
+    #[serde(deserialize_with = "limits::names")]
     pub strategies: Option<Vec<Spanned<String>>>,
     /// What moves, as `PARAM=FROM:TO[:log]:STEPS`.
     pub sweep: Option<Spanned<String>>,
@@ -105,6 +107,7 @@ pub struct Experiment {
     pub check: bool,
 
     /// Samplers; independent unless said.
+    #[serde(deserialize_with = "limits::names")]
     pub samplers: Option<Vec<Spanned<String>>>,
     /// N: the sample counts.
     #[serde(deserialize_with = "limits::counts")]

@@ -83,7 +83,7 @@ fn request(experiment: &Experiment, text: &Text) -> Result<Request, Error> {
     })
 }
 
-/// Where the file says what is to blame.
+/// Where the file says what is to blame; of several points the first, the message names which.
 fn span(experiment: &Experiment, world: &World, about: About) -> Option<Range<usize>> {
     let unknown = |name: &&Spanned<String>| !world.scene.receivers.iter().any(|of| of.name == *name.get_ref());
     let named = || experiment.receivers.iter().flatten();

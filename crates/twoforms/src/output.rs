@@ -119,7 +119,7 @@ pub fn write_to(
 }
 
 /// The experiment's file among the results.
-const EXPERIMENT: &str = "experiment.toml";
+pub const EXPERIMENT: &str = "experiment.toml";
 
 /// Writes a file of experiments as it was run.
 pub fn save_text(path: &Path, text: &Text) -> Result<(), ReportError> {

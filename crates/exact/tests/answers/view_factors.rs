@@ -42,6 +42,21 @@ fn element_and_perpendicular_rectangle() {
     }
 }
 
+/// Before a wall that stands on the horizon, where both densities are 0: samples of A cosθ/π + (1 − A) cosθ/Ω, with Ω = E/L, are
+/// E/q with probability q = A Ω/π + 1 − A.
+#[test]
+fn a_mixture_before_a_light_that_stands_on_the_horizon() {
+    let wall = parallelogram(DVec3::new(1.0, -0.5, 0.0), DVec3::Z, DVec3::Y);
+    let sight = Scene::of(vec![lamp(wall, 1.0)]).sight(DVec3::ZERO, DVec3::Z);
+    let e = sight.irradiance().luminance;
+    for share in [0.1, 0.5] {
+        let name = format!("mixture/{share}(hemisphere/cosine,area/projected-solid-angle)");
+        let variance = sight.variance(name.parse().expect("a strategy")).expect("a variance");
+        let q = share * e / PI + 1.0 - share;
+        close(variance.luminance, e * e * (1.0 / q - 1.0), 1e-9, &name);
+    }
+}
+
 /// Two unit squares face to face at distance 1: F = 0.19982489569838…, the mean of the element's F.
 #[test]
 fn parallel_squares() {

@@ -159,7 +159,8 @@ impl PlacesArgs {
         let sized = self.camera.width.is_some() || self.camera.height.is_some();
         if sized && self.receivers.pixel.is_empty() && self.receivers.grid.is_none() {
             return Some(
-                "--width and --height are of the image that --pixel and --grid look through: pass one of these",
+                "--width and --height are of the image that --pixel and --grid look through: pass one of these (without \
+                 receivers --grid 8,8 is what is taken)",
             );
         }
         None

@@ -41,19 +41,22 @@ pub fn run(args: &CompareArgs, said: &[String]) -> Result<Found> {
     let started = SystemTime::now();
     run::set_threads(&args.run)?;
     let job = if args.is_file() { experiment::job(args, said)? } else { by_options(args)? };
-    let Job { world, places, experiment, asked, check, file } = job;
+    let Job { world, places, experiment: measured, asked, check, file } = job;
+    if let (Some(text), Some(folder)) = (&file, &args.out) {
+        experiment::spare(text, &folder.join(output::EXPERIMENT))?;
+    }
     let destination =
         Destination::new(args.print.format, args.print.output.as_deref(), args.out.as_deref(), file.as_ref())?;
-    check_size(&experiment, places.len())?;
-    for (sampler, [n, rounded]) in experiment.rounded() {
+    check_size(&measured, places.len())?;
+    for (sampler, [n, rounded]) in measured.rounded() {
         run::note(&args.run, &format!("{sampler}: N = {n} becomes {rounded}"));
     }
-    let total = experiment.samples_per_receiver().saturating_mul(places.len() as u64);
+    let total = measured.samples_per_receiver().saturating_mul(places.len() as u64);
     let bar = progress::bar(total, "samples", &args.run);
-    let results = experiment.run(&world, &places, &|drawn| bar.inc(drawn))?;
+    let results = measured.run(&world, &places, &|drawn| bar.inc(drawn))?;
     bar.finish_and_clear();
-    let provenance = run::provenance(&world.scene, experiment.seed, started)
-        .with("replicates", u64::from(experiment.replicates))
+    let provenance = run::provenance(&world.scene, measured.seed, started)
+        .with("replicates", u64::from(measured.replicates))
         .with("quantity", asked.name());
     let biases = if check { biases(&results) } else { Vec::new() };
     destination.write(&Document::new(provenance, results)?)?;

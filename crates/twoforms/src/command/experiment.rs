@@ -21,8 +21,20 @@ pub fn text(path: &Path) -> Result<Text> {
     Ok(Text { name, folder, text })
 }
 
+/// Refuses to write over the very file that was read: what is written has fields set that it has not.
+pub fn spare(text: &Text, path: &Path) -> Result<()> {
+    let [written, read] = [path, Path::new(&text.name)].map(|path| path.canonicalize().ok());
+    if text.folder.is_some() && written.is_some() && written == read {
+        bail!("--out would write over {}, with what was set: choose another folder", text.name);
+    }
+    Ok(())
+}
+
 /// The text with fields set, the seed of the command line among them.
 pub fn with_settings(text: &Text, set: &[String], run: &RunArgs) -> Result<Text> {
+    if let Some(seed) = run.seed.filter(|&seed| i64::try_from(seed).is_err()) {
+        bail!("--seed {seed} is more than a file of experiments can hold: take at most {}", i64::MAX);
+    }
     let seed = run.seed.map(|seed| format!("seed={seed}"));
     Ok(text.with(&[set, seed.as_slice()].concat())?)
 }
@@ -72,6 +84,7 @@ fn left_aside(experiment: &Experiment) -> Option<String> {
         ("sweep", experiment.sweep.is_some()),
         ("nested", experiment.nested.is_some()),
         ("figure", experiment.figure.is_some()),
+        ("chance", experiment.chance.is_some()),
     ];
     let said: Vec<&str> = keys.into_iter().filter(|(_, said)| *said).map(|(key, _)| key).collect();
     (!said.is_empty()).then(|| said.join(", "))

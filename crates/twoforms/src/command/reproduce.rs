@@ -23,7 +23,14 @@ fn run_all(args: &ReproduceArgs) -> Result<Found> {
     for (name, text) in &texts {
         let progress = |title: &str| run::note(&args.run, &format!("{name}: {title}"));
         let note = |line: &str| run::note(&args.run, line);
-        done.push(reproduction::run(name, text, settings, Hears { progress: &progress, note: &note })?);
+        match reproduction::run(name, text, settings, Hears { progress: &progress, note: &note }) {
+            Ok(one) => done.push(one),
+            Err(error) if done.is_empty() => return Err(error.into()),
+            Err(error) => {
+                places.write(args, &texts[..done.len()], &done)?;
+                return Err(error.into());
+            }
+        }
     }
     places.write(args, &texts, &done)?;
     if args.out.is_none() && args.print.format == Format::Table {
@@ -91,6 +98,12 @@ impl Places {
         }
         if let Some(folder) = &args.out {
             file::make_folder(folder)?;
+            for (k, (name, text)) in texts.iter().enumerate() {
+                if texts[..k].iter().any(|(other, _)| other == name) {
+                    bail!("two of the files are called {name}: write each into a folder of its own");
+                }
+                experiment::spare(text, &folder.join(format!("{name}.toml")))?;
+            }
             for name in ["reproduce.json".to_owned(), "reproduce.csv".to_owned()]
                 .into_iter()
                 .chain(texts.iter().map(|(name, _)| format!("{name}.toml")))
@@ -104,12 +117,12 @@ impl Places {
     fn write(&self, args: &ReproduceArgs, texts: &[(String, Text)], done: &[Reproduction]) -> Result<()> {
         let document = ReproductionDocument::new(done)?;
         if let Some(folder) = &self.folder {
-            done.iter().try_for_each(|done| save_figures(done, folder))?;
             file::save(&folder.join("reproduce.json"), |out| document.write_json(out))?;
             file::save(&folder.join("reproduce.csv"), |out| document.write_csv(out))?;
             for (name, text) in texts {
                 output::save_text(&folder.join(format!("{name}.toml")), text)?;
             }
+            done.iter().try_for_each(|done| save_figures(done, folder))?;
         }
         output::write_to(args.print.output.as_deref(), |out| match args.print.format {
             Format::Json => document.write_json(out),

@@ -213,6 +213,12 @@ fn what_a_file_asks_of_a_scene_in_vain_is_told_with_its_line() {
         ("finite", "at = [[nan, 0, 0, 0, 1, 0]]", ":4:7: \"NaN\" is not a finite number"),
         ("file", "at = [\"@none.csv\"]", ":4:7: cannot read"),
         ("sampler", "samplers = [\"sobel\"]", ":4:13: "),
+        ("none", "strategies = []", ":4:14: needs at least one name"),
+        ("nothing", "samplers = []", ":4:12: needs at least one name"),
+        ("seven", "at = [[0, 0, 0, 0, 1, 0, 99]]", ":4:7: needs six numbers"),
+        ("three", "grid = [2, 2, 9]", ":4:8: needs two numbers"),
+        ("deep", "pixels = [[64, 64, 3]]", ":4:10: needs pixels as [x, y] each"),
+        ("eight", "view = [0, 0, 0, 0, 0, 1, 40, 7]", ":4:8: needs seven numbers"),
         ("unknown", "sampler = \"sobol\"", ":4:1: unknown key \"sampler\"; did you mean \"samplers\"?"),
     ] {
         let (path, out) = (written(&folder, &format!("{name}.toml"), &text(keys)), folder.join(name));
@@ -224,4 +230,21 @@ fn what_a_file_asks_of_a_scene_in_vain_is_told_with_its_line() {
     let set = written(&folder, "set.toml", &text(""));
     twoforms(&format!("compare {set} -D replicates=0")).fails(&["-D replicates=0: needs a whole number from 2"]);
     twoforms(&format!("compare {set} -D grid=[0,1]")).fails(&["-D grid=[0,1]: has 0 cells"]);
+    let most = u64::MAX;
+    twoforms(&format!("compare {set} --seed {most}"))
+        .fails(&["18446744073709551615 is more than", "9223372036854775807"]);
+}
+
+#[test]
+fn what_was_read_is_not_written_over() {
+    let folder = folder("spare");
+    let mine = written(&folder, "die.toml", DIE);
+    let other = crate::support::folder("spare-other");
+    let also = written(&other, "die.toml", DIE);
+    twoforms(&format!("reproduce {mine} -D replicates=200 --out {}", folder.display()))
+        .fails(&["write over", "die.toml"]);
+    twoforms(&format!("reproduce {mine} {also} --out {}", folder.join("out").display())).fails(&["two of the files"]);
+    let experiment = written(&folder, "experiment.toml", "[[experiment]]\nscene = \"cornell-box.gltf\"\n");
+    twoforms(&format!("compare {experiment} --out {}", folder.display())).fails(&["write over", "experiment.toml"]);
+    assert_eq!(fs::read_to_string(mine).expect("a file"), DIE);
 }

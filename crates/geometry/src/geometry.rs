@@ -145,7 +145,7 @@ impl Geometry {
     /// The share of light from the point at distance `before` along the ray, on target `target`, that passes what is
     /// blended in between: Π (1 − share).
     pub fn transmittance(&self, ray: &Ray, before: f64, target: u32) -> f64 {
-        let Some(veil) = self.veil.as_ref() else { return 1.0 };
+        let Some(veil) = &self.veil else { return 1.0 };
         let met = RefCell::new(Vec::new());
         self.tracer.any(&self.mesh, ray, before, |triangle| {
             if veil.cover(triangle) == Cover::Blended && self.may_block(triangle, target) {
@@ -210,7 +210,7 @@ impl Geometry {
 
     /// Every triangle that a ray meets and for which `asked` holds, with the share that it stops, from the nearest on.
     fn all_met(&self, ray: &Ray, asked: impl Fn(u32) -> bool) -> Vec<Layer> {
-        let Some(veil) = self.veil.as_ref() else { return Vec::new() };
+        let Some(veil) = &self.veil else { return Vec::new() };
         let met = RefCell::new(Vec::new());
         self.tracer.any(&self.mesh, ray, f64::INFINITY, |triangle| {
             if asked(triangle) {

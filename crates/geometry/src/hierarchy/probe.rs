@@ -104,15 +104,13 @@ impl Probe {
         let (shift, slack) = (origin * rate, apart * rate.abs());
         let negative = rate.is_negative_bitmask();
         let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
-        let near = [row(0, 0), row(1, 0), row(2, 0)];
-        let far = [row(0, 1), row(1, 1), row(2, 1)];
         Self {
             rate: rate.to_array(),
             stretched: (rate * STRETCH).to_array(),
             enter: (-shift - slack).to_array(),
             leave: ((slack - shift) * STRETCH).to_array(),
-            near,
-            far,
+            near: [row(0, 0), row(1, 0), row(2, 0)],
+            far: [row(0, 1), row(1, 1), row(2, 1)],
             place: origin.to_array(),
             apart: apart.to_array(),
             axes: shear.axes,

@@ -1,6 +1,6 @@
 //! Up to eight rays that run alike, led through the tree together.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x16, prelude::*};
 
 use super::Hierarchy;
 use super::best::Best;
@@ -51,23 +51,23 @@ impl Bundle {
 
     /// Which children may be entered before `reach`, a bit each, and where at the earliest.
     #[inline(always)]
-    fn enter<S: Simd>(&self, simd: S, node: &Node, reach: f32) -> (u32, f32x8<S>) {
+    fn enter<S: Simd>(&self, simd: S, node: &Node, reach: f32) -> (u32, f32x16<S>) {
         let entry = self.soonest(simd, node, 0).max(self.soonest(simd, node, 1)).max(self.soonest(simd, node, 2));
         let exit = self.latest(simd, node, 0).min(self.latest(simd, node, 1)).min(self.latest(simd, node, 2));
-        let (entry, exit) = (entry.max(0.0), (exit * STRETCH).min(f32x8::splat(simd, reach)));
+        let (entry, exit) = (entry.max(0.0), (exit * STRETCH).min(f32x16::splat(simd, reach)));
         (entry.simd_le(exit).to_bitmask() as u32, entry)
     }
 
     /// The least distance of the faces where all enter, along one axis.
     #[inline(always)]
-    fn soonest<S: Simd>(&self, simd: S, node: &Node, k: usize) -> f32x8<S> {
+    fn soonest<S: Simd>(&self, simd: S, node: &Node, k: usize) -> f32x16<S> {
         let way = node.face(simd, self.near[k]) - self.ahead[k];
         (way * self.rates[k][0]).min(way * self.rates[k][1])
     }
 
     /// The greatest distance of the faces where all leave, along one axis.
     #[inline(always)]
-    fn latest<S: Simd>(&self, simd: S, node: &Node, k: usize) -> f32x8<S> {
+    fn latest<S: Simd>(&self, simd: S, node: &Node, k: usize) -> f32x16<S> {
         let way = node.face(simd, self.far[k]) - self.back[k];
         (way * self.rates[k][0]).max(way * self.rates[k][1])
     }
@@ -89,11 +89,17 @@ pub(super) fn closest<S: Simd, T: Stack>(simd: S, tree: &Hierarchy, rays: &[Ray]
     let (mut best, mut reach) = ([Best::NOTHING; WIDTH], [f32::INFINITY; WIDTH]);
     let mut farthest = f32::INFINITY;
     let mut stack = T::new();
-    let mut next = tree.root;
-    while let Some(child) = next {
+    let mut next = tree.root.map(|root| (0.0, root));
+    while let Some((start, child)) = next {
         next = if child.is_packet() {
             for k in 0..count {
-                closest_in(simd, tree, child, (&rays[k], &shears[k], &probes[k]), (&mut best[k], &mut reach[k]));
+                closest_in(
+                    simd,
+                    tree,
+                    (start, child),
+                    (&rays[k], &shears[k], &probes[k]),
+                    (&mut best[k], &mut reach[k]),
+                );
             }
             farthest = reach[..count].iter().copied().fold(0.0, f32::max);
             None

@@ -1,20 +1,20 @@
-//! From the binary tree to the wide one: which of its nodes become nodes with eight children, which become packets.
+//! From the binary tree to the wide one: which of its nodes become nodes with sixteen children, which become packets.
 //!
 //! Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3.1:
 //! C(n, i) is the least cost of a subtree n that is given as at most i nodes or packets of the wide tree,
 //!
 //! ```text
-//! C(n, 1) = min(A_n · c_packet where the subtree fits in a packet, A_n · c_node + min over k of C(l, k) + C(r, 8 − k))
+//! C(n, 1) = min(A_n · c_packet where the subtree fits in a packet, A_n · c_node + min over k of C(l, k) + C(r, 16 − k))
 //! C(n, i) = min(C(n, i − 1), min over 0 < k < i of C(l, k) + C(r, i − k))
 //! ```
 //!
 //! with A_n the area of its box and l, r its two children. Unlike there, a packet costs the same whatever it holds.
 
 use super::binary::{Binary, Place};
-use super::node::WIDTH;
+use super::node::{FAN, WIDTH};
 
 /// What a packet costs against a node: their times for one ray.
-const PACKET_COST: f32 = 1.4;
+const PACKET_COST: f32 = 1.0;
 
 /// The choices that make the wide tree cheapest.
 pub(super) struct Collapse<'b> {
@@ -26,26 +26,26 @@ pub(super) struct Collapse<'b> {
 #[derive(Clone, Copy)]
 struct Choice {
     /// `share[i − 1]`: how many of i parts the left child gets; 0 where fewer than i parts are no worse. The first
-    /// counts for a node of the wide tree, which has eight.
-    share: [u8; WIDTH - 1],
+    /// counts for a node of the wide tree, which has sixteen.
+    share: [u8; FAN - 1],
     /// Whether the subtree, given as one part, is a packet.
     packet: bool,
 }
 
 /// The costs at one node: `cost[i − 1]` is C(n, i).
-type Costs = [f32; WIDTH - 1];
+type Costs = [f32; FAN - 1];
 
 impl<'b> Collapse<'b> {
     /// Finds the cheapest choices, from the leaves up.
     pub(super) fn new(binary: &'b Binary) -> Self {
-        let mut choices = vec![Choice { share: [0; WIDTH - 1], packet: true }; binary.len()];
-        let mut costs: Vec<Costs> = vec![[0.0; WIDTH - 1]; binary.len()];
+        let mut choices = vec![Choice { share: [0; FAN - 1], packet: true }; binary.len()];
+        let mut costs: Vec<Costs> = vec![[0.0; FAN - 1]; binary.len()];
         let mut sizes = vec![1_u8; binary.len()];
         for &node in downward(binary).iter().rev() {
             let n = node as usize;
             let packet = binary.half_area(node) * PACKET_COST;
             match binary.at(node) {
-                Place::Triangle(_) => costs[n] = [packet; WIDTH - 1],
+                Place::Triangle(_) => costs[n] = [packet; FAN - 1],
                 Place::Pair(children) => {
                     let [left, right] = children.map(|child| child as usize);
                     sizes[n] = sizes[left].saturating_add(sizes[right]);
@@ -62,13 +62,13 @@ impl<'b> Collapse<'b> {
         self.choices[node as usize].packet
     }
 
-    /// The up to eight parts that a subtree falls into, the largest first, where it becomes a node.
+    /// The up to sixteen parts that a subtree falls into, the largest first, where it becomes a node.
     pub(super) fn parts(&self, node: u32) -> Vec<u32> {
-        let mut parts = Vec::with_capacity(WIDTH);
+        let mut parts = Vec::with_capacity(FAN);
         if let Place::Pair([left, right]) = self.binary.at(node) {
             let share = usize::from(self.choices[node as usize].share[0]);
             self.split(left, share, &mut parts);
-            self.split(right, WIDTH - share, &mut parts);
+            self.split(right, FAN - share, &mut parts);
         }
         parts.sort_by(|&one, &other| self.binary.half_area(other).total_cmp(&self.binary.half_area(one)));
         parts
@@ -103,15 +103,14 @@ impl<'b> Collapse<'b> {
 /// The costs of a subtree and the choices that they come from.
 fn choose(packet: f32, area: f32, left: &Costs, right: &Costs) -> (Costs, Choice) {
     let best = |parts: usize| {
-        let costs =
-            (1..parts).filter(|&k| k < WIDTH && parts - k < WIDTH).map(|k| (left[k - 1] + right[parts - k - 1], k));
+        let costs = (1..parts).filter(|&k| k < FAN && parts - k < FAN).map(|k| (left[k - 1] + right[parts - k - 1], k));
         costs.fold((f32::INFINITY, 0), |best, next| if next.0 < best.0 { next } else { best })
     };
-    let (parts, share) = best(WIDTH);
+    let (parts, share) = best(FAN);
     let node = area + parts;
-    let mut costs = [packet.min(node); WIDTH - 1];
-    let mut choice = Choice { share: [share as u8; WIDTH - 1], packet: packet <= node };
-    for i in 2..WIDTH {
+    let mut costs = [packet.min(node); FAN - 1];
+    let mut choice = Choice { share: [share as u8; FAN - 1], packet: packet <= node };
+    for i in 2..FAN {
         let (parts, share) = best(i);
         let cheaper = parts < costs[i - 2];
         costs[i - 1] = if cheaper { parts } else { costs[i - 2] };

@@ -61,10 +61,20 @@ impl<S: Simd> Crossings<S> {
     /// [`Ray::distance`](crate::ray::Ray::distance) finds there, and others only within rounding.
     #[inline(always)]
     pub(super) fn possible(&self, probe: &Probe, reach: f32) -> u32 {
-        let inside = self.least.simd_ge(-self.margin) | self.most.simd_le(self.margin);
         let behind = (self.along + self.slack).simd_lt(0.0);
         let beyond = (self.along - self.slack).simd_gt(self.sum * (probe.depth * reach));
-        mask(inside & !(behind | beyond))
+        mask(self.crossed() & !(behind | beyond))
+    }
+
+    /// The triangles that the ray's line may cross, before its origin, behind it or beyond its end, a bit each.
+    #[inline(always)]
+    pub(super) fn inside(&self) -> u32 {
+        mask(self.crossed())
+    }
+
+    #[inline(always)]
+    fn crossed(&self) -> mask32x8<S> {
+        self.least.simd_ge(-self.margin) | self.most.simd_le(self.margin)
     }
 
     /// The triangles that the ray surely meets at a distance below `before`, and whose planes surely do not hold its

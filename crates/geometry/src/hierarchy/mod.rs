@@ -1,6 +1,6 @@
-//! The bounding-volume hierarchy: a tree whose nodes have eight children and whose leaves hold eight triangles.
+//! The bounding-volume hierarchy: a tree whose nodes have sixteen children and whose leaves hold eight triangles.
 //!
-//! **The lanes propose, binary64 decides.** Eight boxes or triangles at a time are held against a ray in binary32, in
+//! **The lanes propose, binary64 decides.** Sixteen boxes or eight triangles at a time are held against a ray in binary32, in
 //! tests that grant what rounding can do, so that nothing is lost; what they let through is asked again in binary64, by
 //! the very test that [`BruteForce`] asks of every triangle. So every answer is that of brute force to the last bit, on
 //! every machine, whatever instructions it has and in whatever order the tree is walked, and the binary32 tests are free

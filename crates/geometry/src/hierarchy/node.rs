@@ -1,19 +1,21 @@
-//! A node of the wide tree: eight boxes side by side.
+//! A node of the wide tree: sixteen boxes side by side.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::{Simd, f32x16};
 
 use super::probe::Probe;
 
-/// Boxes in a node, and triangles in a packet.
+/// Boxes in a node: the more there are, the fewer nodes a walk waits for, one after another.
+pub(super) const FAN: usize = 16;
+/// Triangles in a packet.
 pub(super) const WIDTH: usize = 8;
 
-/// Up to eight children, the largest first. Rows 0 to 2 hold the lower bounds of their boxes along x, y, z, rows 3 to 5
+/// Up to sixteen children, the largest first. Rows 0 to 2 hold the lower bounds of their boxes along x, y, z, rows 3 to 5
 /// the upper ones. A slot without a child holds a box that nothing meets.
 #[repr(C, align(64))]
 pub(super) struct Node {
-    bounds: [[f32; WIDTH]; 6],
-    pub(super) children: [Child; WIDTH],
+    bounds: [[f32; FAN]; 6],
+    pub(super) children: [Child; FAN],
     /// The children that are packets, a bit each.
     pub(super) packets: u32,
 }
@@ -22,14 +24,14 @@ impl Node {
     /// A node without children.
     pub(super) const EMPTY: Self = Self {
         bounds: [
-            [f32::INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; FAN],
+            [f32::INFINITY; FAN],
+            [f32::INFINITY; FAN],
+            [f32::NEG_INFINITY; FAN],
+            [f32::NEG_INFINITY; FAN],
+            [f32::NEG_INFINITY; FAN],
         ],
-        children: [Child::NONE; WIDTH],
+        children: [Child::NONE; FAN],
         packets: 0,
     };
 
@@ -50,26 +52,26 @@ impl Node {
 
     /// A row of bounds.
     #[inline(always)]
-    pub(super) fn face<S: Simd>(&self, simd: S, row: usize) -> f32x8<S> {
-        f32x8::from_slice(simd, &self.bounds[row])
+    pub(super) fn face<S: Simd>(&self, simd: S, row: usize) -> f32x16<S> {
+        f32x16::from_slice(simd, &self.bounds[row])
     }
 
     /// Which children the ray enters before `reach`, a bit each, and where: at most the true distance, never more.
     ///
     /// The slab test (Kay and Kajiya 1986), with the faces moved apart by what rounding can do: see [`Probe`].
     #[inline(always)]
-    pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32) -> (u32, f32x8<S>) {
+    pub(super) fn enter<S: Simd>(&self, simd: S, probe: &Probe, reach: f32) -> (u32, f32x16<S>) {
         let near = |k: usize| self.met(simd, probe.near[k], probe.rate[k], probe.enter[k]);
         let far = |k: usize| self.met(simd, probe.far[k], probe.stretched[k], probe.leave[k]);
         let entry = near(0).max(near(1)).max(near(2).max(0.0));
-        let exit = far(0).min(far(1)).min(far(2).min(f32x8::splat(simd, reach)));
+        let exit = far(0).min(far(1)).min(far(2).min(f32x16::splat(simd, reach)));
         (entry.simd_le(exit).to_bitmask() as u32, entry)
     }
 
     /// Where a ray meets a row of faces.
     #[inline(always)]
-    fn met<S: Simd>(&self, simd: S, row: usize, rate: f32, start: f32) -> f32x8<S> {
-        self.face(simd, row).mul_add(rate, f32x8::splat(simd, start))
+    fn met<S: Simd>(&self, simd: S, row: usize, rate: f32, start: f32) -> f32x16<S> {
+        self.face(simd, row).mul_add(rate, f32x16::splat(simd, start))
     }
 }
 

@@ -17,9 +17,10 @@ pub(super) const STEPS: Range<f64> = 3.0 / (1_u64 << 60) as f64..(1_u64 << 60) a
 /// Scenes smaller than this are taken to be of this size, so that what is granted to rounding does not underflow.
 const SMALL: f32 = 1.0 / (1_u64 << 60) as f32;
 
-/// A component below this, in units of the largest, is taken for this, so that its inverse is finite: along any ray within the scene and its origin
-/// (a length of at most 4R, R their largest coordinate) the difference is at most 2⁻⁵⁰ R, less than [`GRAZE`] of R.
-const FLAT: f32 = 1.0 / (1_u64 << 52) as f32;
+/// A component below this is taken for this, so that its inverse is finite. The largest is at least 2⁻³⁰ ([`STEPS`]), so
+/// that along any ray within the scene and its origin (a length of at most 4R, R their largest coordinate) the difference
+/// is at most 2⁻⁵⁰ R, less than [`GRAZE`] of R.
+const FLAT: f32 = 1.0 / (1_u128 << 82) as f32;
 
 /// How far the faces of a box move apart, in units of R, the largest coordinate of scene and origin: more than what
 /// [`FLAT`] and the rounding of the binary64 test can displace a ray, so that a ray within a face meets the box.
@@ -97,12 +98,13 @@ impl Probe {
     #[inline(always)]
     pub(super) fn new(ray: &Ray, shear: &Shear, magnitude: f32) -> Self {
         let (origin, step) = (ray.origin.as_vec3a(), ray.direction.as_vec3a());
-        let flat = Vec3A::splat(FLAT * step.abs().max_element());
-        let rate = 1.0 / Vec3A::select(step.abs().cmplt(flat), flat, step);
+        let flat = Vec3A::splat(FLAT);
+        let step = Vec3A::select(step.abs().cmplt(flat), flat, step);
+        let rate = 1.0 / step;
         let most = origin.abs().max_element();
         let apart = origin.abs() * (8.0 * EPSILON) + GRAZE * most.max(magnitude).max(SMALL);
         let (shift, slack) = (origin * rate, apart * rate.abs());
-        let negative = rate.is_negative_bitmask();
+        let negative = step.is_negative_bitmask();
         let row = |k: usize, far: u32| k + 3 * ((negative >> k & 1) ^ far) as usize;
         Self {
             rate: rate.to_array(),

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::Hierarchy;
-use super::node::Node;
+use super::node::{FAN, Node, WIDTH};
 use super::packet::Packet;
 use super::probe::EPSILON;
 use super::stack::{Stack, entry, parts};
@@ -26,13 +26,13 @@ pub(super) fn within<S: Simd, T: Stack>(
     while let Some(child) = next {
         if child.is_packet() {
             let touching = planes.packet(simd, &tree.packets[child.index()]);
-            for lane in lanes(touching) {
+            for lane in lanes::<WIDTH>(touching) {
                 visit(tree.triangles[child.index()][lane])?;
             }
         } else {
             let node = &tree.nodes[child.index()];
             let touching = planes.node(simd, node);
-            for slot in lanes(touching) {
+            for slot in lanes::<FAN>(touching) {
                 stack.push(entry(0.0, node.children[slot]));
             }
         }
@@ -108,14 +108,14 @@ impl Planes {
 
 /// The largest magnitude of the coordinates.
 #[inline(always)]
-fn largest<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> f32x8<S> {
+fn largest<S: Simd, V: SimdFloat<S, Element = f32>>([x, y, z]: [V; 3]) -> V {
     x.abs().max(y.abs()).max(z.abs())
 }
 
 impl Plane {
     /// The corner of boxes that is farthest inside.
     #[inline(always)]
-    fn nearest<S: Simd>(&self, low: [f32x8<S>; 3], high: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+    fn nearest<V: Copy>(&self, low: [V; 3], high: [V; 3]) -> [V; 3] {
         let mut nearest = high;
         for k in 0..3 {
             if self.normal[k] > 0.0 {
@@ -127,7 +127,7 @@ impl Plane {
 
     /// Which points are outside by more than rounding can be.
     #[inline(always)]
-    fn excludes<S: Simd>(&self, point: [f32x8<S>; 3], blur: f32x8<S>) -> <f32x8<S> as SimdBase<S>>::Mask {
+    fn excludes<S: Simd, V: SimdFloat<S, Element = f32>>(&self, point: [V; 3], blur: V) -> V::Mask {
         let [x, y, z] = point;
         let along = x * self.normal[0] + y * self.normal[1] + z * self.normal[2];
         along.simd_gt(blur + self.offset)

@@ -5,8 +5,6 @@ use twoforms_estimator::sampler::{Parts, Row, Sampler, Stream};
 use twoforms_estimator::xi::{Draws, Key};
 use twoforms_geometry::lanes::Instructions;
 
-use super::chunk::SIZE;
-
 /// The samples of a pixel, one set of points, shared out among its camera samples.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
@@ -27,7 +25,12 @@ impl Samples {
     }
 
     /// Fills the batch with ξ of rows of camera samples, of which the pixels' numbers and places among their samples are given.
-    pub(super) fn fill(&self, [pixels, parts]: [&[u32; SIZE]; 2], rows: &[Row], numbers: &mut Numbers) {
+    pub(super) fn fill<const SIZE: usize>(
+        &self,
+        [pixels, parts]: [&[u32; SIZE]; 2],
+        rows: &[Row],
+        numbers: &mut Numbers,
+    ) {
         let Self { sampler, key, each, spp, instructions } = *self;
         let streams: [&[u32]; 2] = [pixels, &[0; SIZE]];
         Parts { sampler, key, n: spp * each, each, streams, parts }.fill(instructions, rows, numbers);

@@ -1,14 +1,9 @@
 //! A measured variance on the log scale, and how well it is known.
 
+use super::enough::{MIN_EFFECTIVE, MIN_NON_ZERO};
 use super::reason::Reason;
 use super::student::{Z_95, student_quantile};
 use super::variance::{sample_mean, sample_variance};
-
-/// Least number of replicates that are not zero for the spread of a variance to be read from them.
-pub const MIN_NON_ZERO: usize = 30;
-
-/// Least effective number of replicates, 1 / (relative standard error of s²)², for the same.
-pub const MIN_EFFECTIVE: f64 = 5.0;
 
 /// A variance measured over replicates, with the standard error of its logarithm.
 ///

@@ -10,24 +10,28 @@
 
 mod clopper_pearson;
 mod efficiency;
+mod enough;
 mod familywise;
 mod log_variance;
 mod normal;
 mod rate;
 mod ratio;
 mod reason;
+mod regime;
 mod student;
 mod variance;
 mod variance_interval;
 
 pub use clopper_pearson::{binomial_p_value, clopper_pearson};
 pub use efficiency::efficiency;
+pub use enough::{MIN_EFFECTIVE, MIN_NON_ZERO};
 pub use familywise::{holm, sidak};
-pub use log_variance::{LogVariance, MIN_EFFECTIVE, MIN_NON_ZERO};
+pub use log_variance::LogVariance;
 pub use normal::{normal_quantile, normal_tail};
-pub use rate::{Candidates, REGIMES, RateFit, fit_rate};
+pub use rate::{RateFit, fit_rate};
 pub use ratio::{VarianceRatio, variance_ratio};
 pub use reason::Reason;
+pub use regime::{Candidates, REGIMES};
 pub use student::{Z_95, student_quantile};
 pub use twoforms_integration::chebyshev::{Band, chebyshev};
 pub use variance::{sample_mean, sample_variance};

@@ -1,22 +1,9 @@
 //! The rate at which variance falls with the number of samples.
 
-use std::fmt;
-
 use super::log_variance::LogVariance;
 use super::reason::Reason;
+use super::regime::Candidates;
 use super::student::Z_95;
-
-/// Slopes of log variance against log N that theory knows, with their names.
-///
-/// −1: independent samples. −3/2: jittered samples across a discontinuity in two dimensions (Mitchell 1996).
-/// −2: jittered samples of a smooth function in two dimensions, or stratified ones across a jump in one.
-/// −3: stratified samples of a smooth function in one dimension, and scrambled nets in two up to a logarithm (Owen 1997).
-/// A net of N = 2^k points fills k + 1 shapes of intervals, so that any slope from that of N⁻³ to that of
-/// (1 + log₂ N) N⁻³, fitted to the same N, is of that regime.
-pub const REGIMES: [(f64, &str); 4] = [(-1.0, "1/N"), (-1.5, "1/N^1.5"), (-2.0, "1/N^2"), (-3.0, "1/N^3")];
-
-/// The slope that scrambled nets have up to a logarithm.
-const NET: f64 = -3.0;
 
 /// The fitted line's slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,41 +14,10 @@ pub struct RateFit {
     pub interval: [f64; 2],
     /// Birge's ratio √(χ²/(n − 2)), at least 1: how far the points scatter beyond their own errors.
     pub birge: f64,
-    /// Name of the one regime of [`REGIMES`] whose slope lies in the interval, or why there is none.
+    /// Name of the one regime of [`REGIMES`](super::REGIMES) whose slope lies in the interval, or why there is none.
     pub regime: Result<&'static str, Reason>,
     /// All regimes whose slopes lie in the interval.
     pub candidates: Candidates,
-}
-
-/// Some of the [`REGIMES`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Candidates([bool; REGIMES.len()]);
-
-impl Candidates {
-    /// Those whose slopes lie in the interval; `logarithm` is what a factor 1 + log₂ N adds to a slope.
-    fn within([lo, hi]: [f64; 2], logarithm: f64) -> Self {
-        let most = |slope: f64| if slope == NET { slope + logarithm } else { slope };
-        Self(REGIMES.map(|(slope, _)| lo <= most(slope) && slope <= hi))
-    }
-
-    /// Their names.
-    pub fn names(self) -> impl Iterator<Item = &'static str> {
-        REGIMES.into_iter().zip(self.0).filter(|(_, inside)| *inside).map(|((_, name), _)| name)
-    }
-
-    /// The only one, or why there is none.
-    fn only(self) -> Result<&'static str, Reason> {
-        let mut names = self.names();
-        let first = names.next().ok_or(Reason::NoRegime)?;
-        if names.next().is_none() { Ok(first) } else { Err(Reason::SeveralRegimes { found: self }) }
-    }
-}
-
-/// `1/N^1.5 or 1/N^2`.
-impl fmt::Display for Candidates {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.names().collect::<Vec<_>>().join(" or "))
-    }
 }
 
 /// Slope of ln s² against ln N by least squares, weighted by the known errors of ln s².
@@ -82,7 +38,14 @@ pub fn fit_rate(points: &[(u64, LogVariance)]) -> Result<RateFit, Reason> {
     let half = Z_95 * line.standard_error * birge;
     let interval = [line.slope - half, line.slope + half];
     let candidates = Candidates::within(interval, line.logarithm(points));
-    Ok(RateFit { slope: line.slope, interval, birge, regime: candidates.only(), candidates })
+    Ok(RateFit { slope: line.slope, interval, birge, regime: the_only(candidates), candidates })
+}
+
+/// The name of the only candidate, or why there is none.
+fn the_only(candidates: Candidates) -> Result<&'static str, Reason> {
+    let mut names = candidates.names();
+    let first = names.next().ok_or(Reason::NoRegime)?;
+    if names.next().is_none() { Ok(first) } else { Err(Reason::SeveralRegimes { found: candidates }) }
 }
 
 struct Line {
@@ -134,6 +97,7 @@ fn distinct(points: &[(u64, LogVariance)]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::REGIMES;
 
     /// Replicates whose variance is exactly proportional to `variance`, all with the same relative spread.
     fn point(samples: u64, variance: f64, replicates: u32) -> (u64, LogVariance) {

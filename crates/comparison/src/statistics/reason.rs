@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
-use super::log_variance::{MIN_EFFECTIVE, MIN_NON_ZERO};
-use super::rate::Candidates;
+use super::enough::{MIN_EFFECTIVE, MIN_NON_ZERO};
+use super::regime::Candidates;
 
 /// Why a statistic is not given. Its text is a complete sentence for the reader of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

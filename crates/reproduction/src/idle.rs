@@ -29,9 +29,9 @@ const OF_SCENES: [&str; 18] = [
     "check",
     "chance",
 ];
-/// The same of a row.
+/// Keys of a row that a scene alone has a use for.
 const OF_ROWS_IN_SCENES: [&str; 5] = ["receiver", "strategy", "to", "sampler", "which"];
-/// Keys of a row that compare a scene's experiment with nothing.
+/// Keys of a row that an integrand alone has a use for.
 const OF_ROWS_ELSEWHERE: [&str; 2] = ["against", "parameter"];
 /// Keys of a row, and the quantities that depend on them.
 const OF_QUANTITIES: [(&str, &[Quantity]); 9] = [

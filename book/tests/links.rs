@@ -1,7 +1,7 @@
 //! Every link in the project's pages leads to something that is there, and every formula can be read.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 use twoforms_book::formulas;
 use twoforms_book::markdown::{anchors, external, links};
@@ -40,13 +40,21 @@ fn links_lead_to_files_and_headings() {
         for link in links(&text(&page)).into_iter().filter(|link| !external(link)) {
             let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
             let to = if path.is_empty() { page.clone() } else { page.parent().expect("a folder").join(path) };
-            let there = to.exists() && (anchor.is_empty() || anchors(&text(&to)).iter().any(|known| known == anchor));
+            let there = to.exists() && (anchor.is_empty() || has(&to, anchor));
             if !there {
                 broken.push(format!("{}: {link}", page.display()));
             }
         }
     }
     assert!(broken.is_empty(), "links that lead nowhere:\n{}", broken.join("\n"));
+}
+
+/// Whether a page has a heading, or a file of code a line, of this anchor.
+fn has(page: &Path, anchor: &str) -> bool {
+    match anchor.strip_prefix('L').filter(|_| page.extension().is_some_and(|extension| extension == "rs")) {
+        Some(line) => line.parse().is_ok_and(|line: usize| (1..=text(page).lines().count()).contains(&line)),
+        None => anchors(&text(page)).iter().any(|known| known == anchor),
+    }
 }
 
 #[test]
@@ -70,19 +78,66 @@ fn formulas_can_be_read() {
     assert!(formulas > 20, "{formulas} formulas");
 }
 
-/// The index of the lecture says which item of a file holds a formula: a link to the file, and beside it the item in code type.
+/// The index of the lecture says which item of a file holds a formula: a link to the line where it begins, and beside it the
+/// item in code type. With `TWOFORMS_WRITE_BOOK` set, the lines are written into the page instead.
 #[test]
-fn the_lecture_names_items_that_are_there() {
-    let page = text(&root().join("docs/lecture.md"));
-    let rows = page.lines().filter(|line| line.starts_with('|')).flat_map(|line| line.split("](../").skip(1));
+fn the_lecture_s_links_lead_to_the_lines_of_its_items() {
+    let at = root().join("docs/lecture.md");
+    let page = text(&at);
+    let mut made = String::new();
     let mut named = 0;
-    for (path, rest) in rows.filter_map(|after| after.split_once(')')) {
-        let item = rest.split('`').nth(1).unwrap_or_else(|| panic!("no item beside {path}"));
-        let code = text(&root().join(path));
-        let defined =
-            |name: &str| ["fn", "struct", "enum", "trait"].iter().any(|word| code.contains(&format!("{word} {name}")));
-        assert!(item.split("::").all(|name| defined(name) || code.contains(&format!("impl {name}"))), "{path}: {item}");
-        named += 1;
+    for row in page.split_inclusive('\n') {
+        let link = row.starts_with('|').then(|| CodeLink::first(row)).flatten();
+        named += usize::from(link.is_some());
+        made += &link.map_or_else(|| row.to_owned(), |link| row.replacen(&link.written, &link.as_it_should_be(), 1));
     }
     assert!(named >= 20, "{named} items");
+    if env::var_os("TWOFORMS_WRITE_BOOK").is_some() {
+        fs::write(&at, &made).expect("a page");
+    } else {
+        let moved = made.lines().zip(page.lines()).filter(|(made, kept)| made != kept);
+        let moved: Vec<&str> = moved.map(|(made, _)| made).collect();
+        assert!(moved.is_empty(), "items have moved: the lines are now\n{}", moved.join("\n"));
+    }
+}
+
+/// `[file.rs:7](../folder/file.rs#L7) `, and the item in code type after it.
+struct CodeLink {
+    written: String,
+    path: String,
+    item: String,
+}
+
+impl CodeLink {
+    fn first(row: &str) -> Option<Self> {
+        let begin = row.find(".rs:").and_then(|at| row[..at].rfind('['))?;
+        let (link, rest) = row[begin..].split_once(')')?;
+        let path = link.split_once("](../").and_then(|(_, path)| path.split('#').next())?;
+        let item = rest.split('`').nth(1)?;
+        Some(Self { written: format!("{link})"), path: path.to_owned(), item: item.to_owned() })
+    }
+
+    fn as_it_should_be(&self) -> String {
+        let Self { path, item, .. } = self;
+        let file = path.rsplit('/').next().expect("a name");
+        let line = line_of(&text(&root().join(path)), item).unwrap_or_else(|| panic!("there is no {item} in {path}"));
+        format!("[{file}:{line}](../{path}#L{line})")
+    }
+}
+
+/// The line, counted from 1, where an item begins: `name`, or `Type::name` in what stands under that type.
+fn line_of(code: &str, item: &str) -> Option<usize> {
+    let (owner, name) = item.split_once("::").map_or((None, item), |(owner, name)| (Some(owner), name));
+    let mut within = owner.is_none();
+    for (k, line) in code.lines().enumerate() {
+        let words: Vec<&str> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+        if owner.is_some() && ["impl", "trait", "pub trait"].iter().any(|opens| line.starts_with(opens)) {
+            within = words.iter().any(|word| Some(*word) == owner);
+        }
+        let defines = |pair: &[&str]| ["fn", "struct", "enum", "trait"].contains(&pair[0]) && pair[1] == name;
+        if within && words.windows(2).any(defines) {
+            return Some(k + 1);
+        }
+    }
+    None
 }

@@ -1,6 +1,6 @@
 //! Verdicts over many runs: honest estimators are not called biased more often than the level says.
 
-use twoforms_comparison::experiment::Experiment;
+use twoforms_comparison::experiment::{Experiment, Repeatable};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::result::Verdict;
 use twoforms_comparison::verdict::Criteria;
@@ -19,16 +19,19 @@ fn places(stage: &Stage) -> Vec<Place> {
     stage.world.scene.receivers.iter().map(Place::of_receiver).collect()
 }
 
-fn verdicts(stage: &Stage, places: &[Place], seed: u64, replicates: u32) -> Vec<Verdict> {
-    let experiment = Experiment {
+fn experiment(replicates: u32) -> Experiment {
+    Experiment {
         strategies: Strategy::all().into_iter().filter(|strategy| !strategy.is_biased()).collect(),
         samplers: vec![Sampler::Independent],
         samples: vec![16],
         replicates,
-        seed,
+        seed: 0,
         criteria: Criteria { level: LEVEL, margin: 0.01 },
-    };
-    let results = experiment.run(&stage.world, places, &|_| ()).expect("finite samples");
+    }
+}
+
+fn verdicts(experiment: &Repeatable, seed: u64) -> Vec<Verdict> {
+    let results = experiment.run(seed).expect("finite samples");
     results.into_iter().flat_map(|receiver| receiver.verdicts).collect()
 }
 
@@ -41,7 +44,8 @@ fn is_alarm(verdicts: &[Verdict]) -> bool {
 fn alarms_stay_within_the_level(scene: &str, replicates: u32) {
     let stage = worlds::stage(scene);
     let places = places(&stage);
-    let runs = (0..SEEDS).map(|seed| verdicts(&stage, &places, seed, replicates));
+    let experiment = experiment(replicates).repeatable(&stage.world, &places);
+    let runs = (0..SEEDS).map(|seed| verdicts(&experiment, seed));
     let alarming: Vec<Vec<Verdict>> = runs.filter(|verdicts| is_alarm(verdicts)).collect();
     let count = BinomialTest { hits: alarming.len() as u64, trials: SEEDS, probability: LEVEL };
     println!("{scene}, {replicates} replicates: {count}");
@@ -77,16 +81,26 @@ fn false_alarms_stay_within_the_level_with_few_hits() {
     alarms_stay_within_the_level("tiny-far-light", 50);
 }
 
+/// What is worked out once for all runs changes none of them.
+#[test]
+fn a_run_that_is_repeated_is_the_run() {
+    let stage = worlds::stage("two-lights");
+    let places = places(&stage);
+    let alone = Experiment { seed: 7, ..experiment(10) }.run(&stage.world, &places, &|_| ()).expect("finite samples");
+    let alone: Vec<Verdict> = alone.into_iter().flat_map(|receiver| receiver.verdicts).collect();
+    assert_eq!(alone, verdicts(&experiment(10).repeatable(&stage.world, &places), 7));
+}
+
 /// A verdict of `unbiased` is reached too, once there are enough samples: all that `samples_needed` asked for.
 #[test]
 fn the_samples_asked_for_decide() {
     let stage = worlds::stage("square-light");
     let place = &places(&stage)[..1];
-    let first = verdicts(&stage, place, 1, 50);
+    let first = verdicts(&experiment(50).repeatable(&stage.world, place), 1);
     let most = first.iter().filter_map(|verdict| verdict.samples_needed).fold(0.0, f64::max);
     assert!(most > 800.0, "something is undecided at first: {first:#?}");
     let replicates = (2.0 * most / 16.0).ceil() as u32;
-    let then = verdicts(&stage, place, 2, replicates);
+    let then = verdicts(&experiment(replicates).repeatable(&stage.world, place), 2);
     assert!(then.iter().all(|verdict| verdict.verdict == "unbiased"), "after {replicates}: {then:#?}");
     for (before, after) in first.iter().zip(&then) {
         let certain = before.note == "nothing varies" && after.detectable == before.detectable;

@@ -34,6 +34,11 @@ pub struct Experiment {
     pub criteria: Criteria,
 }
 
+/// N where nothing is said.
+pub const DEFAULT_SAMPLES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
+/// R where nothing is said.
+pub const DEFAULT_REPLICATES: u32 = 1000;
+
 /// Receivers that are measured before any of them is reported.
 const RECEIVERS_AT_ONCE: usize = 64;
 /// Samples that one task draws, at least: enough to make a task's overhead vanish.
@@ -63,9 +68,16 @@ impl Experiment {
         let plans = self.plans(&prepared);
         let mut report = Report::default();
         for group in places.chunks(RECEIVERS_AT_ONCE) {
-            self.group(world, group, &plans, progress, &mut report)?;
+            let ready = Ready::all(world, group, &self.strategies);
+            self.group(world, group, &ready, &plans, progress, &mut report)?;
         }
         Ok(report.judged(self.criteria))
+    }
+
+    /// The same experiment for many seeds: what is known without chance is worked out once, and kept for all receivers.
+    pub fn repeatable<'w>(self, world: &'w World, places: &'w [Place]) -> Repeatable<'w> {
+        let ready = Ready::all(world, places, &self.strategies);
+        Repeatable { experiment: self, world, places, ready }
     }
 
     /// Makes sure that every sampler can spread the numbers of every strategy.
@@ -101,12 +113,12 @@ impl Experiment {
         &self,
         world: &World,
         places: &[Place],
+        ready: &[Ready],
         plans: &[Plan],
         progress: &(dyn Fn(u64) + Sync),
         report: &mut Report,
     ) -> Result<(), ComparisonError> {
-        let ready: Vec<Ready> = places.par_iter().map(|place| Ready::new(world, place, &self.strategies)).collect();
-        self.check_known(places, &ready)?;
+        self.check_known(places, ready)?;
         let tasks: Vec<Task> =
             (0..places.len()).flat_map(|p| (0..plans.len()).flat_map(move |r| self.tasks(p, r, &plans[r]))).collect();
         let measured: Vec<Result<Measurement, Broken>> = tasks
@@ -120,7 +132,7 @@ impl Experiment {
             .collect();
         let parts = measured.into_iter().collect::<Result<Vec<Measurement>, Broken>>()?;
         let mut parts = tasks.iter().zip(parts).peekable();
-        for (p, (place, ready)) in places.iter().zip(&ready).enumerate() {
+        for (p, (place, ready)) in places.iter().zip(ready).enumerate() {
             let row = |(r, plan)| {
                 let mut measurement = Measurement::default();
                 while let Some((_, part)) = parts.next_if(|(task, _)| (task.place, task.plan) == (p, r)) {
@@ -204,6 +216,29 @@ impl Experiment {
     }
 }
 
+/// An experiment with all that is known without chance where it measures, to be run again and again.
+pub struct Repeatable<'w> {
+    experiment: Experiment,
+    world: &'w World,
+    places: &'w [Place],
+    ready: Vec<Ready<'w>>,
+}
+
+impl Repeatable<'_> {
+    /// What [`Experiment::run`] gives with this seed, but for the times.
+    ///
+    /// # Errors
+    /// As [`Experiment::run`].
+    pub fn run(&self, seed: u64) -> Result<Vec<ReceiverResult>, ComparisonError> {
+        let experiment = Experiment { seed, ..self.experiment.clone() };
+        experiment.admit()?;
+        let prepared: Vec<Prepared> = experiment.strategies.iter().map(|s| s.prepare(&self.world.lights)).collect();
+        let mut report = Report::default();
+        experiment.group(self.world, self.places, &self.ready, &experiment.plans(&prepared), &|_| (), &mut report)?;
+        Ok(report.judged(experiment.criteria))
+    }
+}
+
 /// A receiver with all that is worked out once before its rows.
 struct Ready<'g> {
     view: View<'g>,
@@ -212,6 +247,10 @@ struct Ready<'g> {
 }
 
 impl<'g> Ready<'g> {
+    fn all(world: &'g World, places: &[Place], strategies: &[Strategy]) -> Vec<Self> {
+        places.par_iter().map(|place| Self::new(world, place, strategies)).collect()
+    }
+
     fn new(world: &'g World, place: &Place, strategies: &[Strategy]) -> Self {
         let (view, setup_seconds) = clock::timed(|| View::new(&world.geometry, place.frame(), Effort::Gather));
         Self { view, setup_seconds, answer: Answer::new(world, place, strategies) }

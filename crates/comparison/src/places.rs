@@ -24,8 +24,8 @@ pub struct NoPlace {
 /// A part of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum About {
-    /// A receiver by numbers.
-    Points,
+    /// A receiver by numbers, which of them from 0.
+    Point(usize),
     /// A receiver by name.
     Receivers,
     /// A pixel.
@@ -120,15 +120,16 @@ struct Finder<'a> {
 
 impl Finder<'_> {
     fn points(&self) -> Result<Vec<Place>> {
-        self.request.points.iter().map(|&(position, normal)| self.point(position, normal)).collect()
+        let points = self.request.points.iter().enumerate();
+        points.map(|(k, &(position, normal))| self.point(k, position, normal)).collect()
     }
 
-    fn point(&self, position: DVec3, normal: DVec3) -> Result<Place> {
+    fn point(&self, k: usize, position: DVec3, normal: DVec3) -> Result<Place> {
         let [x, y, z] = position.to_array();
         let name = format!("point {},{},{}", short(x), short(y), short(z));
         let quantity = self.quantity_at(position, normal, &name)?;
         let place = Place { name, position, normal, quantity, known: None };
-        self.off_lights(place, Origin::Given, About::Points)
+        self.off_lights(place, Origin::Given, About::Point(k))
     }
 
     fn check(&self, place: &Place, origin: Origin) -> std::result::Result<(), OnLight> {

@@ -27,6 +27,34 @@ pub struct Request {
     pub camera: CameraChoice,
 }
 
+/// A part of a request that means nothing beside the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Idle {
+    /// An albedo, where irradiance is asked: it does not depend on a surface.
+    Albedo,
+    /// Leaving highlights out, where irradiance is asked.
+    Lambert,
+    /// The image's width or height, where neither pixels nor a grid look through it.
+    Size,
+    /// A camera of the scene, beside one that is given by numbers.
+    Camera,
+}
+
+impl Request {
+    /// What of it means nothing beside the rest, if anything.
+    pub fn idle(&self) -> Option<Idle> {
+        let irradiance = self.asked == Asked::Irradiance;
+        let CameraChoice { camera, view, width, height } = &self.camera;
+        let idle = [
+            (Idle::Albedo, irradiance && self.albedo.is_some()),
+            (Idle::Lambert, irradiance && self.lambert),
+            (Idle::Size, (width.or(*height)).is_some() && self.pixels.is_empty() && self.grid.is_none()),
+            (Idle::Camera, camera.is_some() && view.is_some()),
+        ];
+        idle.into_iter().find(|(_, is_idle)| *is_idle).map(|(idle, _)| idle)
+    }
+}
+
 /// What is asked of the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -189,6 +217,14 @@ pub fn point(numbers: [f64; 6]) -> Result<(DVec3, DVec3), String> {
     Ok((DVec3::new(x, y, z), unit))
 }
 
+/// A share or a chance, neither nothing nor all.
+///
+/// # Errors
+/// What is needed, where it is none.
+pub fn share(number: f64) -> Result<f64, &'static str> {
+    if 0.0 < number && number < 1.0 { Ok(number) } else { Err("needs a number between 0 and 1, such as 0.01") }
+}
+
 fn finite<const K: usize>(numbers: [f64; K]) -> Result<[f64; K], String> {
     match numbers.iter().find(|number| !number.is_finite()) {
         None => Ok(numbers),
@@ -198,7 +234,7 @@ fn finite<const K: usize>(numbers: [f64; K]) -> Result<[f64; K], String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Colour, Grid, Viewpoint, point};
+    use super::{Asked, CameraChoice, Colour, Grid, Idle, Request, Viewpoint, point, share};
     use glam::DVec3;
 
     #[test]
@@ -207,6 +243,31 @@ mod tests {
         assert_eq!(point([0.0, 0.0, 0.0, 1e-300, 0.0, 0.0]).map(|(_, n)| n), Ok(DVec3::X));
         assert!(point([0.0; 6]).is_err_and(|error| error.contains("no direction")));
         assert!(point([f64::NAN, 0.0, 0.0, 0.0, 0.0, 1.0]).is_err_and(|error| error.contains("finite")));
+    }
+
+    #[test]
+    fn what_means_nothing_beside_the_rest_is_idle() {
+        let (of_radiance, albedo) = (Request { asked: Asked::Radiance, ..Request::default() }, Colour([0.5; 3]));
+        assert_eq!((Request::default().idle(), of_radiance.idle()), (None, None));
+        let lit = |asked| Request { asked, albedo: Some(albedo), ..Request::default() };
+        assert_eq!((lit(Asked::Irradiance).idle(), lit(Asked::Radiance).idle()), (Some(Idle::Albedo), None));
+        let diffuse = |asked| Request { asked, lambert: true, ..Request::default() };
+        assert_eq!((diffuse(Asked::Irradiance).idle(), diffuse(Asked::Radiance).idle()), (Some(Idle::Lambert), None));
+        let sized = |camera: CameraChoice| Request { camera, ..Request::default() };
+        let wide = sized(CameraChoice { width: Some(8), ..CameraChoice::default() });
+        let high = sized(CameraChoice { height: Some(8), ..CameraChoice::default() });
+        assert_eq!((wide.idle(), high.idle()), (Some(Idle::Size), Some(Idle::Size)));
+        let gridded = Request { grid: Some(Grid([2, 2])), ..wide.clone() };
+        assert_eq!((gridded.idle(), Request { pixels: vec![[0, 0]], ..wide }.idle()), (None, None));
+        let view = Viewpoint::try_from([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 40.0]).ok();
+        let both = sized(CameraChoice { camera: Some("0".into()), view, ..CameraChoice::default() });
+        assert_eq!(both.idle(), Some(Idle::Camera));
+    }
+
+    #[test]
+    fn a_share_is_neither_nothing_nor_all() {
+        assert_eq!(share(0.01), Ok(0.01));
+        assert!([0.0, 1.0, -0.1, f64::NAN].into_iter().all(|number| share(number).is_err()));
     }
 
     #[test]

@@ -48,6 +48,13 @@ impl World {
         Ok(Self { scene, geometry, lights })
     }
 
+    /// How much there is of it: `36 triangles, 1 light, 1 target`.
+    pub fn summary(&self) -> String {
+        let triangles = counted(self.geometry.mesh().len(), "triangle");
+        let lights = counted(self.scene.lights.len(), "light");
+        format!("{triangles}, {lights}, {}", counted(self.lights.targets(), "target"))
+    }
+
     /// The first surface along a ray, blended or not.
     pub fn see(&self, ray: &Ray) -> Option<Seen> {
         let hit =
@@ -139,8 +146,23 @@ impl World {
     }
 }
 
+/// `1 light`, `2 lights`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// The cube around a point, `half` its edge's half in metres.
 pub(crate) fn cube(centre: DVec3, half: f64) -> Region {
     let sides = DVec3::AXES.into_iter().flat_map(|axis| [(axis, half), (-axis, half)]);
     Region { origin: centre, half_spaces: sides.collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counted;
+
+    #[test]
+    fn one_is_singular() {
+        assert_eq!([counted(0, "light"), counted(1, "light")], ["0 lights", "1 light"]);
+    }
 }

@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod crossing;
 pub mod either;
 pub mod formula;
+pub mod idle;
 pub mod lighting;
 mod limits;
 pub mod nested;

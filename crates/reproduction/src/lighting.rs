@@ -15,6 +15,7 @@ use twoforms_estimator::strategy::Strategy;
 use crate::nested;
 use crate::outcome::{Finding, Measured};
 use crate::reading::{Error, Text};
+use crate::reproduction::Hears;
 use crate::schema::{Expected, Experiment, Quantity};
 use crate::stage;
 use crate::toolkit::{widened, word, z};
@@ -45,14 +46,14 @@ pub struct Lighting {
 const SAMPLES: [u32; 2] = [16, 64];
 
 impl Lighting {
-    /// Works out all that the rows of an experiment ask about; `note` is told what is left out or read otherwise.
+    /// Works out all that the rows of an experiment ask about.
     ///
     /// # Errors
     /// Where a name is unknown, or what is asked is impossible.
-    pub fn new(experiment: &Experiment, text: &Text, run: Run, note: &dyn Fn(&str)) -> Result<Option<Self>, Error> {
+    pub fn new(experiment: &Experiment, text: &Text, run: Run, hears: Hears) -> Result<Option<Self>, Error> {
         let Some(scene) = &experiment.scene else { return Ok(None) };
-        let world = stage::world(scene, text, note)?;
-        let places = stage::places(experiment, &world, text, note)?;
+        let world = stage::world(scene, text, hears.note, hears.detail)?;
+        let places = stage::places(experiment, &world, text, hears.note)?;
         let strategies = strategies(experiment, text)?;
         let exact = exactly::exactly(&world, &places, &strategies, &|_| ());
         let comparison = Comparison {
@@ -61,7 +62,7 @@ impl Lighting {
             samples: experiment.samples.clone().unwrap_or_else(|| SAMPLES.to_vec()),
             replicates: run.replicates,
             seed: run.seed,
-            criteria: Criteria { level: 0.01, margin: 0.01 },
+            criteria: Criteria::default(),
         };
         let wrong = |message: String| text.error(scene.span(), &message);
         let measured = comparison.run(&world, &places, &|_| ()).map_err(|error| wrong(error.to_string()))?;

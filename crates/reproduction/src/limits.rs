@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use serde::de::{Deserialize, Deserializer, Error};
 use toml::Spanned;
-use twoforms_comparison::request::MOST_PIXELS;
+use twoforms_comparison::request::{self, MOST_PIXELS};
 
 /// Most replicates.
 const MOST_REPLICATES: u32 = 100_000_000;
@@ -19,6 +19,13 @@ fn kept<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     if holds(&value) { Ok(value) } else { Err(Error::custom(format!("needs {needs}"))) }
 }
 
+/// A seed: TOML's whole numbers have a sign.
+pub(crate) fn seed<'de, D: Deserializer<'de>>(from: D) -> Result<u64, D::Error> {
+    const MOST: u64 = i64::MAX as u64;
+    let seed = u64::deserialize(from).ok().filter(|seed| *seed <= MOST);
+    seed.ok_or_else(|| Error::custom(format!("needs a whole number from 0 to {MOST}")))
+}
+
 pub(crate) fn above_zero_always<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     kept(from, |&number: &f64| number > 0.0 && number.is_finite(), "a number above 0")
 }
@@ -28,7 +35,7 @@ pub(crate) fn above_zero<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f6
 }
 
 pub(crate) fn share<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
-    kept(from, |&share: &f64| 0.0 < share && share < 1.0, "a number between 0 and 1, such as 0.01").map(Some)
+    request::share(f64::deserialize(from)?).map(Some).map_err(Error::custom)
 }
 
 pub(crate) fn count<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
@@ -45,8 +52,9 @@ pub(crate) fn replicates<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u3
     kept(from, |count| (2..=MOST_REPLICATES).contains(count), needs).map(Some)
 }
 
-pub(crate) fn side<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
-    kept(from, |side| (1..=MOST_PIXELS).contains(side), format!("a whole number from 1 to {MOST_PIXELS}")).map(Some)
+pub(crate) fn side<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Spanned<u32>>, D::Error> {
+    let needs = format!("a whole number from 1 to {MOST_PIXELS}");
+    kept(from, |side: &Spanned<u32>| (1..=MOST_PIXELS).contains(side.get_ref()), needs).map(Some)
 }
 
 pub(crate) fn names<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec<Spanned<String>>>, D::Error> {
@@ -70,6 +78,11 @@ pub(crate) fn interval<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[f64
     const NEEDS: &str = "[a', b'] with a' <= b'";
     let [low, high] = pair(from, NEEDS)?;
     if low <= high { Ok(Some([low, high])) } else { Err(Error::custom(format!("needs {NEEDS}"))) }
+}
+
+pub(crate) fn domain<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec<[f64; 2]>>, D::Error> {
+    let sides = Vec::<Vec<f64>>::deserialize(from)?.into_iter().map(TryInto::try_into);
+    sides.collect::<Result<_, _>>().map(Some).map_err(|_| Error::custom("needs [a, b] along each axis"))
 }
 
 /// Pairs of numbers, and where the file has them.

@@ -140,7 +140,7 @@ fn inner_samples(lighting: &Lighting, inner: u32) -> Comparison {
         samples: vec![inner],
         replicates: 1,
         seed: lighting.seed,
-        criteria: Criteria { level: 0.01, margin: 0.01 },
+        criteria: Criteria::default(),
     }
 }
 

@@ -6,6 +6,7 @@ use twoforms_integration::Source;
 
 use crate::crossing;
 use crate::formula::Formula;
+use crate::idle;
 use crate::lighting::{Lighting, Run};
 use crate::outcome::{Finding, Row, Verdict};
 use crate::plot::{self, Plot};
@@ -81,11 +82,13 @@ pub struct Hears<'a> {
     pub progress: &'a dyn Fn(&str),
     /// What a scene has otherwise than its file means it, and receivers that are left out.
     pub note: &'a dyn Fn(&str),
+    /// How much there is of each scene.
+    pub detail: &'a dyn Fn(&str),
 }
 
 impl Hears<'static> {
     /// Nobody.
-    pub const NOBODY: Self = Self { progress: &|_| (), note: &|_| () };
+    pub const NOBODY: Self = Self { progress: &|_| (), note: &|_| (), detail: &|_| () };
 }
 
 /// Works out all experiments of a file.
@@ -94,6 +97,7 @@ impl Hears<'static> {
 /// Where the file is wrong, or an experiment asks for what cannot be.
 pub fn run(name: &str, text: &Text, settings: Settings, hears: Hears) -> Result<Reproduction, Error> {
     let file = text.parse()?;
+    idle::refuse(&file, text)?;
     let seed = file.seed;
     let rows = file.experiment.iter().map(|experiment| experiment.get_ref().row.len()).sum::<usize>();
     let bench = Bench { text, file: &file, settings, hears, seed, level: LEVEL / rows.max(1) as f64 };
@@ -128,7 +132,7 @@ impl Bench<'_> {
         let experiment = spanned.get_ref();
         let replicates = self.quickly(experiment.replicates.unwrap_or(REPLICATES));
         let run = Run { seed: self.seed, replicates, level: self.level };
-        let (findings, plots) = match Lighting::new(experiment, self.text, run, self.hears.note)? {
+        let (findings, plots) = match Lighting::new(experiment, self.text, run, self.hears)? {
             Some(lighting) => self.of_light(experiment, spanned, &lighting)?,
             None => self.of_variable(experiment, spanned, run)?,
         };
@@ -173,6 +177,9 @@ impl Bench<'_> {
         let subject =
             Subject::new(experiment, self.text, at.span())?.ok_or_else(|| wrong("it has no subject".into()))?;
         let samplers = stage::samplers(experiment, self.text)?;
+        if let Some(second) = experiment.samplers.as_ref().and_then(|names| names.get(1)) {
+            return Err(self.text.error(second.span(), "an experiment without a scene has one sampler"));
+        }
         let toolkit = Toolkit {
             exact: subject.exact().map_err(|error| wrong(error.to_string()))?,
             source: Source { sampler: samplers.first().copied().unwrap_or(Sampler::Independent), seed: run.seed },

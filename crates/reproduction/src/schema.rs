@@ -20,7 +20,7 @@ pub struct File {
     /// How the values that are derived here come about.
     pub derivation: Option<String>,
     /// Seed of all that is random, 0 unless said.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "limits::seed")]
     pub seed: u64,
     /// The relative change of a result that its rows must notice, 0.05 unless said.
     #[serde(default = "detects", deserialize_with = "limits::above_zero_always")]
@@ -54,6 +54,7 @@ pub struct Experiment {
     /// The names of the axes; x, y, z unless said.
     pub axes: Option<Vec<String>>,
     /// [a, b] along each axis; [0, 1] unless said.
+    #[serde(deserialize_with = "limits::domain")]
     pub domain: Option<Vec<[f64; 2]>>,
     /// p along each axis; uniform unless said.
     pub density: Option<Vec<Spanned<Density>>>,
@@ -78,17 +79,17 @@ pub struct Experiment {
     /// ρ for radiance where no surface lies under a receiver.
     pub albedo: Option<Spanned<Colour>>,
     /// Radiance without highlights.
-    pub lambert: bool,
+    pub lambert: Option<Spanned<bool>>,
     /// Who looks: a camera of the scene by name or number, or `auto`.
     pub camera: Option<Spanned<CameraName>>,
     /// Who looks, by numbers: eye, target, and a vertical field of view in degrees.
     pub view: Option<Spanned<Viewpoint>>,
     /// Width of the image in pixels.
     #[serde(deserialize_with = "limits::side")]
-    pub width: Option<u32>,
+    pub width: Option<Spanned<u32>>,
     /// Height of the image in pixels.
     #[serde(deserialize_with = "limits::side")]
-    pub height: Option<u32>,
+    pub height: Option<Spanned<u32>>,
     /// Strategies to compare.
     #[serde(deserialize_with = "limits::names")]
     pub strategies: Option<Vec<Spanned<String>>>,

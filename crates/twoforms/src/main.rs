@@ -45,6 +45,6 @@ fn main() -> ExitCode {
 fn misused(command: &str, why: &str) -> ! {
     let mut all = Args::command();
     all.build();
-    let command = all.find_subcommand_mut(command).map_or_else(Args::command, |command| command.clone());
-    command.clone().error(ErrorKind::ArgumentConflict, why).exit()
+    let named = all.find_subcommand(command).cloned();
+    named.unwrap_or(all).error(ErrorKind::ArgumentConflict, why).exit()
 }

@@ -148,11 +148,6 @@ pub fn plain(text: &str) -> String {
     text.chars().map(written).collect()
 }
 
-/// `1 light`, `2 lights`.
-pub fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// Whether an error only says that the reader of standard output has left, as `head` does: no failure.
 pub fn reader_left(error: &anyhow::Error) -> bool {
     let stream = error.downcast_ref::<ReportError>();
@@ -161,15 +156,10 @@ pub fn reader_left(error: &anyhow::Error) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{counted, plain};
+    use super::plain;
 
     #[test]
     fn a_name_from_a_file_cannot_command_the_terminal() {
         assert_eq!(plain("\u{1b}[31mred\nline é"), "\\u{1b}[31mred\\nline é");
-    }
-
-    #[test]
-    fn one_is_singular() {
-        assert_eq!([counted(0, "light"), counted(1, "light")], ["0 lights", "1 light"]);
     }
 }

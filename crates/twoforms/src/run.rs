@@ -12,7 +12,7 @@ use twoforms_report::provenance::{platform, rfc3339_utc};
 use twoforms_scene::Scene;
 
 use crate::args::{PlacesArgs, RunArgs};
-use crate::output::{self, counted};
+use crate::output;
 
 /// Loads a scene with at least one light, and says on standard error what was read otherwise than the file means it.
 pub fn load(path: &Path, run: &RunArgs) -> Result<World> {
@@ -21,12 +21,7 @@ pub fn load(path: &Path, run: &RunArgs) -> Result<World> {
         note(run, &format!("warning: {warning}"));
     }
     let world = World::new(scene)?;
-    if run.verbose > 0 {
-        let triangles = counted(world.geometry.mesh().len(), "triangle");
-        let lights = counted(world.scene.lights.len(), "light");
-        let targets = counted(world.lights.targets(), "target");
-        note(run, &format!("{}: {triangles}, {lights}, {targets}", path.display()));
-    }
+    detail(run, &format!("{}: {}", path.display(), world.summary()));
     Ok(world)
 }
 
@@ -39,6 +34,13 @@ pub fn places(world: &World, args: &PlacesArgs, run: &RunArgs, stay: Stay) -> Re
 /// Says a line on standard error, unless that is to be quiet.
 pub fn note(run: &RunArgs, line: &str) {
     if !run.quiet {
+        output::say(line);
+    }
+}
+
+/// Says a line on standard error, where more is to be said.
+pub fn detail(run: &RunArgs, line: &str) {
+    if run.verbose > 0 {
         output::say(line);
     }
 }

@@ -12,8 +12,10 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::parser::ValueSource;
 use clap::{ArgAction, Args as ClapArgs, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use twoforms_comparison::request::{Asked, Request};
+use twoforms_comparison::experiment::{DEFAULT_REPLICATES, DEFAULT_SAMPLES};
+use twoforms_comparison::request::{self, Asked, Idle, Request};
 use twoforms_comparison::sweep::Sweep;
+use twoforms_comparison::verdict::Criteria;
 use twoforms_estimator::sampler::Sampler;
 
 pub use camera::CameraArgs;
@@ -76,7 +78,7 @@ pub enum Command {
 #[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Run")]
 pub struct RunArgs {
-    /// Seed: equal seeds give equal results, on any number of threads [default: that of an experiment's file, else 0]
+    /// Seed: equal seeds give equal results, on any number of threads [default: 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = between::<u64>(0, u64::MAX))]
     pub seed: Option<u64>,
     /// Threads [default: one per core]
@@ -92,6 +94,10 @@ pub struct RunArgs {
     #[arg(short, long, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
 }
+
+/// What `--seed` is where a file may say another.
+const SEED_OF_FILE: &str =
+    "Seed: equal seeds give equal results, on any number of threads [default: the file's, if one is run, else 0]";
 
 impl RunArgs {
     /// The seed where no file says one.
@@ -149,21 +155,15 @@ pub struct PlacesArgs {
 impl PlacesArgs {
     /// Why some of it means nothing beside the rest, if that is so.
     pub fn misuse(&self) -> Option<&'static str> {
-        let irradiance = self.quantity == QuantityArg::Irradiance;
-        if irradiance && self.receivers.albedo.is_some() {
-            return Some("--albedo is for --quantity radiance: irradiance does not depend on a surface");
-        }
-        if irradiance && self.lambert {
-            return Some("--lambert is for --quantity radiance: irradiance does not depend on a surface");
-        }
-        let sized = self.camera.width.is_some() || self.camera.height.is_some();
-        if sized && self.receivers.pixel.is_empty() && self.receivers.grid.is_none() {
-            return Some(
+        Some(match self.but_points().idle()? {
+            Idle::Albedo => "--albedo is for --quantity radiance: irradiance does not depend on a surface",
+            Idle::Lambert => "--lambert is for --quantity radiance: irradiance does not depend on a surface",
+            Idle::Size => {
                 "--width and --height are of the image that --pixel and --grid look through: pass one of these (without \
-                 receivers --grid 8,8 is what is taken)",
-            );
-        }
-        None
+                 receivers --grid 8,8 is what is taken)"
+            }
+            Idle::Camera => "--view is a camera by itself: leave out --view or --camera",
+        })
     }
 
     /// What they ask for.
@@ -171,17 +171,22 @@ impl PlacesArgs {
     /// # Errors
     /// Where a file of receivers cannot be read.
     pub fn request(&self) -> Result<Request, String> {
+        Ok(Request { points: self.receivers.points()?, ..self.but_points() })
+    }
+
+    /// The same without points, which may be in files.
+    fn but_points(&self) -> Request {
         let receivers = &self.receivers;
-        Ok(Request {
+        Request {
             asked: self.quantity.into(),
             lambert: self.lambert,
-            points: receivers.points()?,
+            points: Vec::new(),
             receivers: receivers.receiver.clone(),
             pixels: receivers.pixel.iter().map(|pixel| pixel.0).collect(),
             grid: receivers.grid,
             albedo: receivers.albedo,
             camera: self.camera.choice(),
-        })
+        }
     }
 }
 
@@ -201,10 +206,13 @@ impl Command {
 #[command(next_help_heading = "Verdicts")]
 pub struct CriteriaArgs {
     /// Chance of any false alarm in a run
-    #[arg(long, default_value_t = 0.01, value_name = "P", allow_negative_numbers = true, value_parser = share)]
+    #[arg(long, default_value_t = Criteria::default().level, value_name = "P", allow_negative_numbers = true, value_parser = share)]
     pub level: f64,
     /// The bias that still counts as none, as a share of the exact value
-    #[arg(long, default_value_t = 0.01, value_name = "SHARE", allow_negative_numbers = true, value_parser = share)]
+    #[arg(
+        long, default_value_t = Criteria::default().margin, value_name = "SHARE", allow_negative_numbers = true,
+        value_parser = share
+    )]
     pub margin: f64,
     /// Exit with 3 if an estimator is found to be biased
     #[arg(long)]
@@ -212,8 +220,7 @@ pub struct CriteriaArgs {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let value = text.parse::<f64>().ok().filter(|value| 0.0 < *value && *value < 1.0);
-    value.ok_or_else(|| "needs a number between 0 and 1, such as 0.01".to_owned())
+    request::share(text.parse().unwrap_or(f64::NAN)).map_err(str::to_owned)
 }
 
 /// How results are printed, and where.
@@ -258,6 +265,7 @@ pub struct ExactArgs {
 /// `compare`.
 #[derive(Clone, Debug, ClapArgs)]
 #[command(after_help = help::COMPARE, after_long_help = help::with_strategies(help::COMPARE))]
+#[command(mut_arg("seed", |seed| seed.help(SEED_OF_FILE)))]
 pub struct CompareArgs {
     /// A glTF scene (.gltf or .glb), or a file with an experiment (.toml)
     pub scene: PathBuf,
@@ -272,13 +280,13 @@ pub struct CompareArgs {
     pub sampler: SamplerList,
     /// Sample counts N, separated by commas
     #[arg(
-        long, value_delimiter = ',', default_value = "1,4,16,64,256,1024", value_name = "N,N,…",
+        long, value_delimiter = ',', default_values_t = DEFAULT_SAMPLES, value_name = "N,N,…",
         allow_negative_numbers = true, value_parser = between::<u32>(1, u64::from(u32::MAX))
     )]
     pub samples: Vec<u32>,
     /// Independent replicates of each estimate, over which variances are measured
     #[arg(
-        long, default_value_t = 1000, value_name = "R", allow_negative_numbers = true,
+        long, default_value_t = DEFAULT_REPLICATES, value_name = "R", allow_negative_numbers = true,
         value_parser = between::<u32>(1, u64::from(u32::MAX))
     )]
     pub replicates: u32,
@@ -308,6 +316,7 @@ impl CompareArgs {
 
 /// `reproduce`.
 #[derive(Debug, ClapArgs)]
+#[command(mut_arg("seed", |seed| seed.help(SEED_OF_FILE)))]
 pub struct ReproduceArgs {
     /// Reproductions by name, or files of experiments (.toml) [default: list them]
     #[arg(value_name = "NAME|FILE.toml")]

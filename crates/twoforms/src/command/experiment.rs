@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use twoforms_comparison::experiment::Experiment as Comparison;
+use twoforms_comparison::experiment::{DEFAULT_REPLICATES, DEFAULT_SAMPLES, Experiment as Comparison};
 use twoforms_comparison::verdict::Criteria;
 use twoforms_estimator::strategy::Strategy;
 use twoforms_reproduction::schema::{Experiment, File};
-use twoforms_reproduction::{Text, stage};
+use twoforms_reproduction::{Text, idle, stage};
 
 use super::compare::Job;
 use crate::args::{CompareArgs, RunArgs};
@@ -44,6 +44,7 @@ pub fn job(args: &CompareArgs, said: &[String]) -> Result<Job> {
     let text = with_settings(&text(&args.scene)?, &args.set, &args.run)?;
     refuse_options(said, &text)?;
     let file = text.parse()?;
+    idle::refuse(&file, &text)?;
     let [spanned] = &file.experiment[..] else {
         let count = file.experiment.len();
         bail!("{} has {count} experiments, and compare runs one: use reproduce for several, or none", text.name);
@@ -57,7 +58,8 @@ pub fn job(args: &CompareArgs, said: &[String]) -> Result<Job> {
     if let Some(keys) = left_aside(experiment) {
         note(&format!("note: {keys} of {} are for reproduce, and left aside", text.name));
     }
-    let world = stage::world(scene, &text, &note)?;
+    let detail = |line: &str| run::detail(&args.run, line);
+    let world = stage::world(scene, &text, &note, &detail)?;
     let places = stage::places(experiment, &world, &text, &note)?;
     let check = args.criteria.check || experiment.check;
     let asked = experiment.quantity.as_ref().map(|asked| *asked.get_ref()).unwrap_or_default();
@@ -90,23 +92,14 @@ fn left_aside(experiment: &Experiment) -> Option<String> {
     (!said.is_empty()).then(|| said.join(", "))
 }
 
-/// N where nothing is said.
-pub const DEFAULT_SAMPLES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
-/// R where nothing is said.
-pub const DEFAULT_REPLICATES: u32 = 1000;
-/// Level and margin of verdicts where nothing is said.
-pub const DEFAULT_CRITERIA: Criteria = Criteria { level: 0.01, margin: 0.01 };
-
 fn comparison(experiment: &Experiment, file: &File, text: &Text) -> Result<Comparison> {
+    let Criteria { level, margin } = Criteria::default();
     Ok(Comparison {
         strategies: stage::listed(experiment, text)?.unwrap_or_else(Strategy::defaults),
         samplers: stage::samplers(experiment, text)?,
         samples: stage::once(experiment.samples.as_deref().unwrap_or(&DEFAULT_SAMPLES)),
         replicates: experiment.replicates.unwrap_or(DEFAULT_REPLICATES),
         seed: file.seed,
-        criteria: Criteria {
-            level: experiment.level.unwrap_or(DEFAULT_CRITERIA.level),
-            margin: experiment.margin.unwrap_or(DEFAULT_CRITERIA.margin),
-        },
+        criteria: Criteria { level: experiment.level.unwrap_or(level), margin: experiment.margin.unwrap_or(margin) },
     })
 }

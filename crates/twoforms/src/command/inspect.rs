@@ -7,11 +7,12 @@ use anyhow::{Context, Result};
 use glam::DVec3;
 use serde_json::{Value, json};
 use twoforms_comparison::viewpoint;
+use twoforms_comparison::world::counted;
 use twoforms_geometry::target::{Sides, Target};
 use twoforms_scene::{Camera, Image, Light, Scene};
 
 use crate::args::{InspectArgs, InspectFormat};
-use crate::output::{self, counted, plain};
+use crate::output::{self, plain};
 
 /// Prints the scene's contents.
 pub fn run(args: &InspectArgs) -> Result<()> {

@@ -23,7 +23,8 @@ fn run_all(args: &ReproduceArgs) -> Result<Found> {
     for (name, text) in &texts {
         let progress = |title: &str| run::note(&args.run, &format!("{name}: {title}"));
         let note = |line: &str| run::note(&args.run, line);
-        match reproduction::run(name, text, settings, Hears { progress: &progress, note: &note }) {
+        let detail = |line: &str| run::detail(&args.run, line);
+        match reproduction::run(name, text, settings, Hears { progress: &progress, note: &note, detail: &detail }) {
             Ok(one) => done.push(one),
             Err(error) if done.is_empty() => return Err(error.into()),
             Err(error) => {

@@ -7,17 +7,6 @@ use std::{env, fs};
 use crate::page::{self, blocks, commands};
 use crate::support::{finished, folder, names, program};
 
-/// Commands that are not run here, by what they begin with: those that take long without optimisation, and those that measure
-/// speed. Figures are drawn by a test of their own.
-const NOT_RUN: [&str; 6] = [
-    "compare scenes/cornell-box.gltf --samples 1,4,16,64,256,1024,4096,16384,65536",
-    "compare scenes/cornell-box.gltf --samples 1024 --replicates 4000",
-    "compare scenes/cornell-box.gltf --grid 8,8",
-    "render scenes/cornell-box.gltf --spp 256",
-    "reproduce --all",
-    "reproduce lecture --out out",
-];
-
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -68,9 +57,9 @@ fn every_command_in_the_pages_runs_and_prints_what_stands_below_it() {
             match language {
                 "toml" => written(&block, &at),
                 "sh" => {
-                    let run = commands(&block).into_iter().filter(|command| !not_run(command));
-                    let outputs =
-                        run.map(|command| known.entry(command).or_insert_with_key(|c| lines_of(c, &at)).clone());
+                    let outputs = commands(&block)
+                        .into_iter()
+                        .map(|command| known.entry(command).or_insert_with_key(|c| lines_of(c, &at)).clone());
                     lines = outputs.flatten().collect();
                 }
                 // The README's table is held to the program by `.ci/run`.
@@ -90,10 +79,6 @@ fn every_command_in_the_pages_runs_and_prints_what_stands_below_it() {
     }
     assert!(known.len() > 20, "{} commands", known.len());
     assert!(write || wrong.is_empty(), "lines that are not printed:\n{}", wrong.join("\n"));
-}
-
-fn not_run(command: &str) -> bool {
-    NOT_RUN.iter().any(|begin| command.starts_with(begin))
 }
 
 fn lines_of(command: &str, at: &Path) -> Vec<String> {

@@ -71,6 +71,18 @@ fn what_is_wrong_with_a_file_is_told_with_its_line_and_nothing_is_written() {
         ("interval", format!("{DIE}interval = [2, 1]\n"), ":8:12: needs [a', b'] with a' <= b'"),
         ("nodes", format!("{DIE}nodes = 0\n"), ":8:9: needs a whole number from 1"),
         ("nested", DIE.replace("replicates = 20000", "nested = [1, 1]"), ":4:10: needs [outer, inner]"),
+        ("seed", format!("seed = {}\n{DIE}", u64::MAX), ":1:8: needs a whole number from 0 to 9223372036854775807"),
+        ("domain", DIE.replace("replicates = 20000", "domain = [[0, 1, 2]]"), ":4:10: needs [a, b] along each axis"),
+        ("idle", DIE.replace("replicates = 20000", "domain = [[0, 1]]"), ":4:1: \"domain\" is for an integrand"),
+        ("of-scenes", DIE.replace("replicates = 20000", "grid = [2, 2]"), ":4:1: \"grid\" is for a scene, and"),
+        ("of-a-row", format!("{DIE}strategy = \"area/uniform\"\n"), ":8:1: \"strategy\" is for a scene"),
+        ("of-others", format!("{DIE}nodes = 4\n"), ":8:1: \"nodes\" means nothing to the quantity \"mean\""),
+        ("no-number", format!("{DIE}derived-error = 0.1\n"), ":8:1: \"derived-error\" is of a derived number"),
+        (
+            "samplers",
+            DIE.replace("replicates = 20000", "samplers = [\"sobol\", \"independent\"]"),
+            ":4:22: an experiment without a scene has one sampler",
+        ),
         ("derived", format!("{DIE}derived = \"7/\"\n"), ":8:11: \"7/\" is no formula"),
         ("pole", format!("{DIE}derived = \"1/0\"\n"), ":8:11: it has no finite value"),
         (
@@ -207,6 +219,15 @@ fn what_a_file_asks_of_a_scene_in_vain_is_told_with_its_line() {
         ("width", "width = 0", ":4:9: needs a whole number from 1 to 65536"),
         ("albedo", "quantity = \"radiance\"\nalbedo = 1.5", ":5:10: an albedo lies between 0 and 1"),
         ("idle", "albedo = 0.5", ":4:10: an albedo is for radiance: add quantity = \"radiance\""),
+        ("lambert", "lambert = true", ":4:11: lambert is for radiance: add quantity = \"radiance\""),
+        (
+            "size",
+            "receivers = [\"floor-lit\"]\nheight = 64",
+            ":5:10: width and height are of the image that pixels and",
+        ),
+        ("cameras", "view = [0, 0, 1, 0, 0, 0, 40]\ncamera = 0", ":4:8: a view is a camera by itself"),
+        ("integral", "axes = [\"x\"]", ":4:1: \"axes\" is for an integrand, and the experiment has none"),
+        ("on-a-light", "at = [[0, 0.1, 0, 0, 1, 0], [0.27, 0.548799991607666, 0.28, 1, -1, 0]]", ":4:29: the receiver"),
         ("quantity", "quantity = \"radience\"", ":4:12: unknown word \"radience\"; did you mean \"radiance\"?"),
         ("level", "level = 2", ":4:9: needs a number between 0 and 1"),
         ("normal", "at = [[0, 0, 0, 0, 0, 0]]", ":4:7: the normal has no direction"),
@@ -229,6 +250,7 @@ fn what_a_file_asks_of_a_scene_in_vain_is_told_with_its_line() {
     }
     let set = written(&folder, "set.toml", &text(""));
     twoforms(&format!("compare {set} -D replicates=0")).fails(&["-D replicates=0: needs a whole number from 2"]);
+    twoforms(&format!("compare {set} -D seed=9223372036854775808")).fails(&["seed=9223372036854775808: needs a whole"]);
     twoforms(&format!("compare {set} -D grid=[0,1]")).fails(&["-D grid=[0,1]: has 0 cells"]);
     let most = u64::MAX;
     twoforms(&format!("compare {set} --seed {most}"))

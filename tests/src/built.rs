@@ -4,8 +4,12 @@ use std::path::Path;
 
 use glam::{Quat, Vec3};
 use serde_json::Value;
+use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering, Shown};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::world::World;
+use twoforms_estimator::sampler::Sampler;
+use twoforms_estimator::strategy::Strategy;
+use twoforms_estimator::technique::Kind;
 
 use crate::scenes::{Answer, Camera, Material, Part, Receiver, Scene};
 
@@ -32,6 +36,28 @@ pub fn world(parts: &[Part], receivers: &[Receiver], change: impl FnOnce(&mut Va
 /// The receivers of a world.
 pub fn places(world: &World) -> Vec<Place> {
     world.scene.receivers.iter().map(Place::of_receiver).collect()
+}
+
+/// A small image by the scene's camera and `area/uniform`.
+///
+/// # Panics
+/// When a sample is not finite.
+pub fn image(world: &World, quantity: Shown, filter: PixelFilter, seed: u64) -> Vec<Pixel> {
+    let (width, height) = (32, 32);
+    let rendering = Rendering {
+        strategy: Strategy::from(Kind::AreaUniform),
+        sampler: Sampler::Independent,
+        width,
+        height,
+        crop: Crop { x0: 0, x1: width, y0: 0, y1: height },
+        spp: 4,
+        light_samples: 4,
+        filter,
+        cull: false,
+        quantity,
+        seed,
+    };
+    rendering.run(world, &world.scene.cameras[0], &|_| ()).expect("finite samples")
 }
 
 /// An upright box turned about the vertical through `centre`, which lies on its floor.

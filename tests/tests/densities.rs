@@ -7,7 +7,7 @@ use twoforms_estimator::query::Query;
 use twoforms_estimator::sampler::Sampler;
 use twoforms_estimator::selection::Selection;
 use twoforms_estimator::strategy::Strategy;
-use twoforms_estimator::technique::Technique;
+use twoforms_estimator::technique::{Kind, Technique};
 use twoforms_geometry::view::{Effort, View};
 use twoforms_tests::densities::{Visitor, visit};
 use twoforms_tests::domain::{Domain, chi_square, value};
@@ -120,36 +120,51 @@ struct Told {
     drawn: u32,
     /// Samples at whose points there is no density.
     lost: u32,
-    /// Largest relative difference of the others.
+    /// Largest difference of the others, over what rounding explains.
     worst: f64,
 }
 
-struct Telling(Samples);
+/// Roundings of its coordinates, and of the density, by which the point that a density is told for may lie beside the one drawn: where
+/// a direction is made of the point, and the point of the direction again, some twenty follow each other, and 21 at most are seen.
+const FOUND: f32 = 24.0;
+/// The same where a map by solid angle is undone: with its undoing it is some sixty operations long, and 44 at most are seen, beside a
+/// wall that fills a quarter of the view and is drawn in parts.
+const UNDONE: f32 = 48.0;
+
+struct Telling(Samples, f32);
 
 impl Visitor for Telling {
     type Output = Told;
 
-    fn visit<M: Measure, D: Density<M>>(self, view: &View, density: &D, _: &impl Domain<M>) -> Told {
+    fn visit<M: Measure, D: Density<M>>(self, view: &View, density: &D, domain: &impl Domain<M>) -> Told {
         let mut told = Told::default();
         for index in 0..self.0.n {
             let (Sample { at, pdf }, some) = density.sample::<f32>(&view.from_x(), self.0.xi(index)).parts();
-            let again = value(density, view, &at);
+            let (again, pdf) = (value(density, view, &at), f64::from(pdf.value()));
             told.drawn += u32::from(some);
             told.lost += u32::from(some && again == 0.0);
-            if some && again != 0.0 {
-                told.worst = told.worst.max((again / f64::from(pdf.value()) - 1.0).abs());
+            if some && again != 0.0 && again != pdf {
+                let apart = |near: M::Point<f32>| (value(density, view, &near) - again).abs();
+                let moved = domain.around(&at, self.1).into_iter().map(apart).fold(0.0, f64::max);
+                let rounded = f64::from(self.1) * 2.0_f64.powi(-24) * pdf;
+                told.worst = told.worst.max((again - pdf).abs() / (moved + rounded));
             }
         }
         told
     }
 }
 
-/// Toward lights the point is found again from its direction, whose rounding counts for more the more the light is
-/// seen edgeways; and a point on the very edge of a light may be found beside it, one in a thousand at most.
+/// What is told with a sample is the density at its point, but for what the density differs by between points that lie as near to
+/// each other as its coordinates are rounded: toward lights the point is found again from its direction, seen edgeways if need be,
+/// and where a warp is undone the two numbers are found again from the point, across a sliver perhaps. A point on the very edge of
+/// a light may be found beside it, one in a thousand at most.
 #[test]
 fn the_density_told_with_a_sample_is_that_of_its_point() {
-    for (name, told) in everywhere(|case, strategy, sampler| Telling(draws(case, strategy, sampler))) {
-        let least = if name.contains("bilinear") { 1e-3 } else { 1e-5 };
-        assert!(told.worst <= least && told.lost <= told.drawn / 1000, "{name}: {told:?}");
+    let told = everywhere(|case, strategy, sampler| {
+        let is_undone = strategy.techniques().iter().any(|technique| technique.kind == Kind::AreaBilinearCosine);
+        Telling(draws(case, strategy, sampler), if is_undone { UNDONE } else { FOUND })
+    });
+    for (name, told) in told {
+        assert!(told.worst <= 1.0 && told.lost <= told.drawn / 1000, "{name}: {told:?}");
     }
 }

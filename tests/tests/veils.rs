@@ -4,7 +4,7 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use glam::DVec3;
 use serde_json::{Value, json};
 use twoforms_comparison::exactly;
-use twoforms_comparison::image::{Crop, Pixel, PixelFilter, Rendering, Shown};
+use twoforms_comparison::image::{Pixel, PixelFilter, Shown};
 use twoforms_comparison::place::Place;
 use twoforms_comparison::world::World;
 use twoforms_estimator::query::Query;
@@ -13,7 +13,7 @@ use twoforms_estimator::strategy::{Known, Strategy, Weighting};
 use twoforms_estimator::technique::Kind;
 use twoforms_geometry::veil::Cover;
 use twoforms_geometry::view::{Effort, View};
-use twoforms_tests::built::{ceiling, places, world};
+use twoforms_tests::built::{ceiling, image, places, world};
 use twoforms_tests::samples::Samples;
 use twoforms_tests::scenes::{Material, Part, Receiver};
 
@@ -189,25 +189,9 @@ fn exact_light_is_had_where_nothing_of_that_kind_stands_between() {
     assert!(format!("{:?}", below.why).contains("cut out or blended"), "{:?}", below.why);
 }
 
-fn image(world: &World) -> Vec<Pixel> {
-    let rendering = Rendering {
-        strategy: Strategy::from(Kind::AreaUniform),
-        sampler: Sampler::Independent,
-        width: 32,
-        height: 32,
-        crop: Crop { x0: 0, x1: 32, y0: 0, y1: 32 },
-        spp: 4,
-        light_samples: 2,
-        filter: PixelFilter::Box,
-        cull: false,
-        quantity: Shown::Radiance,
-        seed: SEED,
-    };
-    rendering.run(world, &world.scene.cameras[0], &|_| ()).expect("finite samples")
-}
-
 #[test]
 fn images_see_through_what_is_cut_out_and_what_is_blended() {
+    let image = |world: &World| image(world, Shown::Radiance, PixelFilter::Box, SEED);
     let masked = image(&world(&parts(-0.5, 0.5), &receivers(), |document| cut(document, CARD, [0, 255])));
     let half = image(&world(&parts(0.0, 0.5), &receivers(), |_| ()));
     let near = |a: [f64; 3], b: [f64; 3]| (0..3).all(|c| (a[c] - b[c]).abs() <= 2e-5 * (a[c] + b[c]));

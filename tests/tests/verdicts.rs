@@ -104,6 +104,8 @@ fn the_samples_asked_for_decide() {
     assert!(then.iter().all(|verdict| verdict.verdict == "unbiased"), "after {replicates}: {then:#?}");
     for (before, after) in first.iter().zip(&then) {
         let certain = before.note == "nothing varies" && after.detectable == before.detectable;
-        assert!(certain || after.detectable < before.detectable, "{before:#?} {after:#?}");
+        // Where few samples carried the variance, nothing was known before.
+        let less = |after: f64| before.detectable.is_none_or(|before| after < before);
+        assert!(certain || after.detectable.is_some_and(less), "{before:#?} {after:#?}");
     }
 }

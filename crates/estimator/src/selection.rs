@@ -48,9 +48,7 @@ impl Selection {
             Self::Compensated(_) => "@compensated",
         }
     }
-}
 
-impl Selection {
     /// Whether the probabilities depend on x.
     pub fn depends_on_x(self) -> bool {
         matches!(self, Self::Contribution | Self::Tree | Self::Compensated(_))
@@ -253,9 +251,7 @@ impl Picker {
             |k| self.shares[k as usize].piece,
         )
     }
-}
 
-impl Picker {
     /// What a random word picks. Targets that are whole are each a piece.
     #[inline(always)]
     pub fn pick<R: Real>(&self, word: R::Word) -> Picked<R> {

@@ -32,9 +32,33 @@ pub fn has_formula(strategy: Strategy) -> bool {
     }
 }
 
-/// Whether the density of a technique is a formula on each facet.
+/// How the variance of a technique comes about.
+enum Formula {
+    /// Over the hemisphere, by c and k of [`Sight::over_hemisphere`].
+    Hemisphere(f64, usize),
+    /// Over the lights, uniform in a measure.
+    Lights(Draw),
+    /// Over the lights in proportion to what they emit.
+    Luminance,
+}
+
+/// That of a kind of techniques; `None` where no formula is known.
+fn formula(kind: Kind) -> Option<Formula> {
+    match kind {
+        Kind::HemisphereUniform => Some(Formula::Hemisphere(2.0 * PI, 2)),
+        // f_r is constant, so that its own density is the cosine.
+        Kind::HemisphereCosine | Kind::HemisphereBrdf => Some(Formula::Hemisphere(PI, 1)),
+        Kind::AreaUniform | Kind::HemisphereTowardLights => Some(Formula::Lights(Draw::Uniform)),
+        Kind::AreaSolidAngle => Some(Formula::Lights(Draw::SolidAngle)),
+        Kind::AreaBilinearCosine => Some(Formula::Lights(Draw::BilinearCosine)),
+        Kind::AreaProjectedSolidAngle => Some(Formula::Lights(Draw::ProjectedSolidAngle)),
+        Kind::AreaLuminance => Some(Formula::Luminance),
+        Kind::HemisphereTowardLightsMarginal => None,
+    }
+}
+
 fn is_known(technique: Technique) -> bool {
-    technique.kind != Kind::HemisphereTowardLightsMarginal
+    formula(technique.kind).is_some()
 }
 
 /// All strategies whose variance is known here; combinations by some of their many names.
@@ -70,16 +94,10 @@ impl Sight {
     }
 
     fn of_technique(&self, Technique { kind, selection }: Technique) -> Result<Value, Error> {
-        match kind {
-            Kind::HemisphereUniform => self.over_hemisphere(2.0 * PI, 2),
-            // f_r is constant, so that its own density is the cosine.
-            Kind::HemisphereCosine | Kind::HemisphereBrdf => self.over_hemisphere(PI, 1),
-            Kind::AreaUniform | Kind::HemisphereTowardLights => self.over_lights(Draw::Uniform, selection),
-            Kind::HemisphereTowardLightsMarginal => Err(Error::NoFormula),
-            Kind::AreaSolidAngle => self.over_lights(Draw::SolidAngle, selection),
-            Kind::AreaBilinearCosine => self.over_lights(Draw::BilinearCosine, selection),
-            Kind::AreaProjectedSolidAngle => self.over_lights(Draw::ProjectedSolidAngle, selection),
-            Kind::AreaLuminance => self.sum_of_laws(&[(picked::by_luminance(self)?, 1.0)]),
+        match formula(kind).ok_or(Error::NoFormula)? {
+            Formula::Hemisphere(c, k) => self.over_hemisphere(c, k),
+            Formula::Lights(draw) => self.over_lights(draw, selection),
+            Formula::Luminance => self.sum_of_laws(&[(picked::by_luminance(self)?, 1.0)]),
         }
     }
 

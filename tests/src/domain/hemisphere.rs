@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use twoforms_estimator::measure::{Aim, SolidAngle};
 use twoforms_geometry::vector::{Direction, Vector, round};
 
-use super::{Domain, Patch};
+use super::{Domain, Patch, aims_around};
 
 /// Cells of equal solid angle: a grid in cosθ and φ.
 #[derive(Clone, Copy, Debug)]
@@ -69,5 +69,9 @@ impl Domain<SolidAngle> for HemisphereCells {
 
     fn resolution(&self) -> f64 {
         self.resolution
+    }
+
+    fn around(&self, aim: &Aim<f32>, roundings: f32) -> [Aim<f32>; 6] {
+        aims_around(aim, roundings)
     }
 }

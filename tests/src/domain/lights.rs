@@ -7,7 +7,7 @@ use twoforms_geometry::segment::SurfacePoint;
 use twoforms_geometry::view::View;
 
 use super::chart::{Chart, fan_area, fan_solid_angle};
-use super::{Domain, HemisphereCells, Patch};
+use super::{Domain, HemisphereCells, Patch, aims_around, points_around};
 
 /// Cells along each side of a target.
 const CELLS: usize = 8;
@@ -90,6 +90,10 @@ impl Domain<SurfaceArea> for LightCells<'_> {
     fn resolution(&self) -> f64 {
         self.resolution
     }
+
+    fn around(&self, y: &SurfacePoint<f32>, roundings: f32) -> [SurfacePoint<f32>; 6] {
+        points_around(y, roundings)
+    }
 }
 
 impl Domain<SolidAngle> for LightCells<'_> {
@@ -129,6 +133,10 @@ impl Domain<SolidAngle> for LightCells<'_> {
     /// What a patch cut by the horizon, or one that is wide as x sees it, may add.
     fn resolution(&self) -> f64 {
         2e-3
+    }
+
+    fn around(&self, aim: &Aim<f32>, roundings: f32) -> [Aim<f32>; 6] {
+        aims_around(aim, roundings)
     }
 }
 
@@ -185,5 +193,9 @@ impl Domain<SolidAngle> for LitDirections<'_> {
 
     fn resolution(&self) -> f64 {
         5e-3
+    }
+
+    fn around(&self, aim: &Aim<f32>, roundings: f32) -> [Aim<f32>; 6] {
+        aims_around(aim, roundings)
     }
 }

@@ -316,16 +316,26 @@ mod tests {
         }
     }
 
-    fn differ(one: &Pixel, other: &Pixel) -> bool {
-        // Where an estimator has little variance, much of what is measured is rounding.
-        let rounding = 3e-6 * one.mean.iter().fold(0.0, |most: f64, mean| most.max(mean.abs()));
-        let close = |a: f64, b: f64| (a - b).abs() <= 2e-5 * (a.abs() + b.abs()) + rounding + 1e-9;
-        let values = |p: &Pixel| [p.mean, p.variance.map(f64::sqrt)].concat();
-        let same = values(one).iter().zip(values(other)).all(|(&a, b)| close(a, b));
-        !same || one.rays != other.rays || one.centre.is_some() != other.centre.is_some()
+    /// What arithmetic may add to a sample, as a share of it. Means and deviations of samples then differ by no more than that share
+    /// of their root mean square.
+    const ARITHMETIC: f64 = 3e-6;
+    /// The same where the plane of a light is grazed, by points a hundred times nearer to it than to the light: how near is a
+    /// difference of coordinates, each rounded for a beam's footprint and for a ray's end.
+    const GRAZED: f64 = 2e-5;
+
+    /// Whether two pixels saw the same, by as many rays, but for rounding and for this share of their values.
+    fn differ(one: &Pixel, other: &Pixel, share: f64) -> bool {
+        let apart = |c: usize| {
+            let [deviation, of_other] = [one, other].map(|pixel| pixel.variance[c].sqrt());
+            let rounding = ARITHMETIC * one.mean[c].hypot(deviation);
+            let close = |a: f64, b: f64| (a - b).abs() <= share * (a.abs() + b.abs()) + rounding;
+            !(close(one.mean[c], other.mean[c]) && close(deviation, of_other))
+        };
+        (0..3).any(apart) || one.rays != other.rays || one.centre.is_some() != other.centre.is_some()
     }
 
-    /// Beams and rays draw the same samples, which differ by rounding alone, or by more within rounding of an edge.
+    /// Beams and rays draw the same samples, which differ by rounding alone, in few pixels because the plane of a light is grazed, and
+    /// by more within rounding of an edge.
     #[test]
     fn beams_see_what_rays_see() {
         let mut pixels = [0, 0];
@@ -352,10 +362,15 @@ mod tests {
                 let painter = Painter::new(&rendering, &world, camera);
                 let beams = rendering.run(&world, camera, &|_| ()).expect("finite samples");
                 let rays = rendering.crop.pixels().map(|[x, y]| painter.pixel(x, y).expect("finite samples"));
-                let differing = beams.iter().zip(rays).filter(|(beam, ray)| differ(beam, ray)).count();
-                pixels[0] += differing;
-                pixels[1] += beams.len();
-                assert!(differing <= 8, "{name}, {strategy}: {differing} pixels differ");
+                let pairs: Vec<_> = beams.iter().zip(rays).collect();
+                let differing = |share: f64| pairs.iter().filter(|(beam, ray)| differ(beam, ray, share)).count();
+                let [rounded, more] = [0.0, GRAZED].map(differing);
+                pixels[0] += more;
+                pixels[1] += pairs.len();
+                assert!(
+                    rounded * 50 <= pairs.len() && more <= 8,
+                    "{name}, {strategy}: {rounded}, {more} pixels differ"
+                );
             }
         }
         let [differing, all] = pixels;

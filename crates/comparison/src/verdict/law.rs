@@ -17,7 +17,8 @@ pub(super) enum Law {
     Normal { sigma: f64, skew: f64, freedom: f64 },
     /// Samples are worth zero or `value`: k = `hits` of n were not zero.
     TwoValues { value: f64, hits: u64, n: u64 },
-    /// Samples w ≥ 0 with known variance and second moment whose tail has not come up: inequalities in place of a law.
+    /// Samples with known variance whose tail has not come up: inequalities in place of a law. E\[w²\] of samples w ≥ 0; infinite where
+    /// they can be negative.
     Bounded { variance: f64, second: f64, n: f64 },
     /// Too little is known, and why.
     Unknown { note: &'static str },
@@ -37,10 +38,11 @@ impl Law {
                 let p = (reference + budget.copysign(difference)) / value;
                 if 0.0 < p && p < 1.0 { binomial_p_value(hits, n, p) } else { 1.0 }
             }
-            Self::Bounded { second, n, .. } if difference < 0.0 => {
-                (2.0 * libm::exp(-0.5 * n * beyond * beyond / second)).min(1.0)
+            Self::Bounded { variance, second, n } => {
+                let above = 2.0 * variance / (variance + n * beyond * beyond);
+                let below = 2.0 * libm::exp(-0.5 * n * beyond * beyond / second);
+                above.min(if difference < 0.0 { below } else { 1.0 }).min(1.0)
             }
-            Self::Bounded { variance, n, .. } => (2.0 * variance / (variance + n * beyond * beyond)).min(1.0),
         }
     }
 
@@ -56,7 +58,7 @@ impl Law {
             Self::Bounded { variance, second, n } => {
                 let above = (variance / n).sqrt() * cantelli(0.5 * level);
                 let below = (2.0 * second / n * -libm::log(0.5 * level)).sqrt();
-                Some([difference - above, difference + below])
+                Some([difference - above, difference + below.min(above)])
             }
             Self::Unknown { .. } => None,
         }
@@ -84,9 +86,9 @@ impl Law {
     }
 }
 
-/// √(1/tail − 1): Pr(mean ≥ μ + c σ) ≤ 1/(1 + c²) = tail, whatever the law (Cantelli 1928).
+/// √(1/tail − 1): Pr(mean ≥ μ + c σ) ≤ 1/(1 + c²) = tail, whatever the law, and below the mean alike (Cantelli 1928).
 ///
-/// Below the mean, samples w ≥ 0 do better: Pr(mean ≤ μ − t) ≤ exp(−n t² / (2 E\[w²\])), from E\[exp(−λ w)\] ≤
+/// Below it samples w ≥ 0 mostly do better: Pr(mean ≤ μ − t) ≤ exp(−n t² / (2 E\[w²\])), from E\[exp(−λ w)\] ≤
 /// exp(−λ μ + λ² E\[w²\]/2).
 fn cantelli(tail: f64) -> f64 {
     (1.0 / tail - 1.0).sqrt()
@@ -128,10 +130,11 @@ fn narrowed(wide: f64, skew: f64, freedom: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const LAWS: [Law; 5] = [
+    const LAWS: [Law; 6] = [
         Law::Normal { sigma: 0.01, skew: 0.02, freedom: f64::INFINITY },
         Law::Normal { sigma: 0.01, skew: 0.0, freedom: 40.0 },
         Law::Bounded { variance: 1.0, second: 2.0, n: 1e4 },
+        Law::Bounded { variance: 1.0, second: f64::INFINITY, n: 1e4 },
         Law::TwoValues { value: 2.0, hits: 5300, n: 10_000 },
         Law::TwoValues { value: 2.0, hits: 4600, n: 10_000 },
     ];

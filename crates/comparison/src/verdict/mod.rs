@@ -17,7 +17,8 @@
 //!   judged.
 //! - Otherwise the mean is normal, with the standard deviation of the exact variance where there is one, or of the
 //!   samples where they vary more; wider by the skewness that the samples show (Cornish and Fisher 1938), and by
-//!   Student's t where the variance is measured.
+//!   Student's t where the variance is measured. Where fewer than 30 samples carry that, a tail may be to come of which
+//!   nothing is known, and there is no verdict.
 //! - Samples that show less than half of their exact variance have a tail that has not come up. No normal law holds
 //!   there; inequalities do, with a shorter arm toward the bias that would hide in the tail.
 
@@ -43,6 +44,8 @@ const FEW_REPLICATES: f64 = 300.0;
 const TOO_FEW_REPLICATES: &str = "fewer than 300 replicates of samples that depend on each other: too few to judge by";
 const TOO_FEW: &str = "fewer than 30 samples that are not zero: too few to judge by";
 const STRAY_LIGHT: &str = "light where there should be none, in too few samples to judge by";
+const FEW_CARRY: &str =
+    "heavy-tailed: fewer than 30 samples carry the variance that is seen, and more may not be: too few to judge by";
 const HEAVY_TAIL: &str = "heavy-tailed: the samples show less than half of their exact variance";
 
 /// When a bias is found, and which one matters.
@@ -187,8 +190,16 @@ impl Evidence {
                 Law::Unknown { note: TOO_FEW_REPLICATES }
             }
             () if shown.sqrt() <= self.budget() => Law::Certain,
+            () if self.carriers() < FEW_HITS => Law::Unknown { note: FEW_CARRY },
             () => self.normal(shown, self.units.n - 1.0),
         }
+    }
+
+    /// Of how many units the variance comes, (Σ d²)²/Σ d⁴ of their distances d from the mean; of all, where those that are far out
+    /// lie on the side on which there is an end.
+    fn carriers(&self) -> f64 {
+        let Moments { n, m2, m3, m4, .. } = self.units;
+        if m3 > 0.0 || self.signed { m2 * m2 / m4 } else { n }
     }
 
     fn normal(&self, variance: f64, freedom: f64) -> Law {

@@ -75,6 +75,29 @@ fn light_that_is_never_found_is_a_bias() {
     assert_eq!(verdict(&rare), "undecided");
 }
 
+/// Two hundred samples near 1 and a tail from 10 up, of which one sample is seen: its variance is not known from it.
+#[test]
+fn a_variance_that_few_samples_carry_is_none_to_judge_by() {
+    let mut samples: Vec<f64> = (0..200).map(|k| 0.5 + 0.001 * f64::from(k)).collect();
+    samples.push(10.0);
+    let measured = |samples: &[f64]| Evidence { exact_variance: None, ..evidence_of(samples, 1.0) };
+    assert_eq!(measured(&samples).law(), Law::Unknown { note: FEW_CARRY });
+    let mirrored: Vec<f64> = samples.iter().map(|w| 10.0 - w).collect();
+    assert!(matches!(measured(&mirrored).law(), Law::Normal { .. }));
+    let signed = Evidence { signed: true, ..measured(&mirrored) };
+    assert_eq!(signed.law(), Law::Unknown { note: FEW_CARRY });
+}
+
+/// Nor is it where samples can be negative, and half of what is known of those from zero up does not hold.
+#[test]
+fn a_signed_tail_that_has_not_come_up_has_an_interval() {
+    let whole = evidence(0.98, 100.0, 1e6);
+    let tail = Evidence { signed: true, units: Moments { m2: 0.1 * whole.units.m2, ..whole.units }, ..whole };
+    let judged = &judge(&[tail], Criteria::default())[0];
+    let [lo, hi] = judged.interval.expect("an interval");
+    assert!(judged.verdict == "undecided" && hi.is_finite() && (lo + hi + 0.04).abs() < 1e-12, "{judged:?}");
+}
+
 #[test]
 fn a_tail_that_has_not_come_up_is_no_bias() {
     let mut tail = evidence(0.98, 100.0, 1e6);

@@ -32,6 +32,8 @@ struct Reservoir<R: Real> {
     per_target: R,
     /// Σ p̂/p over the candidates seen.
     sum: R,
+    /// What rounding has added to the sum beyond that (Kahan 1965): of a thousand like terms it would be more than any other's.
+    excess: R,
     /// What is left of the random number that decides.
     u: R,
 }
@@ -41,13 +43,15 @@ impl<R: Real> Reservoir<R> {
         let zero = R::zero();
         let nowhere =
             SurfacePoint { position: Vector::new(zero, zero, R::one()), depth: zero, target: R::Word::splat(0) };
-        Self { y: nowhere, per_target: zero, sum: zero, u }
+        Self { y: nowhere, per_target: zero, sum: zero, excess: zero, u }
     }
 
     /// Takes a candidate of weight w with probability w over the sum; the random number is stretched and serves again.
     #[inline(always)]
     fn offer(&mut self, y: &SurfacePoint<R>, target: R, w: R) {
-        let sum = self.sum + w;
+        let added = w - self.excess;
+        let sum = self.sum + added;
+        self.excess = (sum - self.sum) - added;
         let share = w / sum;
         let taken = R::zero().lt(w) & self.u.le(share);
         let stretched = R::select(taken, self.u / share, (self.u - share) / (R::one() - share));

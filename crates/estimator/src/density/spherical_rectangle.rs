@@ -154,6 +154,10 @@ mod tests {
 
     use super::{GRAZING, SphericalRectangle, numbers};
 
+    /// Roundings of its place, in which the numbers undone may be those of another point: some thirty follow each other in the map and
+    /// its undoing, not all the same way.
+    const ROUNDINGS: f64 = 16.0;
+
     fn uniform(state: &mut u64) -> f64 {
         *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         ((splitmix64(*state) >> 12) as f64 + 0.5) / 4_503_599_627_370_496.0
@@ -169,6 +173,23 @@ mod tests {
         [corner, corner + e, corner + e + f, corner + f]
     }
 
+    /// The two numbers of the point at the shares s and t of the sides, from the solid angle before it and from sines of elevations,
+    /// in binary64.
+    fn numbers_of([a, b, _, d]: [DVec3; 4], whole: f64, [s, t]: [f64; 2]) -> [f64; 2] {
+        let (e, f) = (b - a, d - a);
+        let before = solid_angle(&[a, a + e * s, a + e * s + f, d]) / whole;
+        let sine = |t: f64| {
+            let y = a + e * s + f * t;
+            y.y / y.length()
+        };
+        [before, (sine(t) - sine(0.0)) / (sine(1.0) - sine(0.0))]
+    }
+
+    /// Largest difference.
+    fn apart([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
+        (a - c).abs().max((b - d).abs())
+    }
+
     /// What is drawn at (u, v) against the solid angles of the parts before it, in binary64, and undone again.
     #[test]
     fn a_draw_parts_the_solid_angle_as_its_numbers_say() {
@@ -176,28 +197,25 @@ mod tests {
         while drawn < 20_000 {
             let corners = rectangle(&mut state);
             let Some(rectangle) = SphericalRectangle::new(&corners) else { continue };
-            let [a, b, _, d] = corners;
             let uv = [uniform(&mut state) as f32, uniform(&mut state) as f32];
-            let [s, t] = rectangle.shares(uv).map(f64::from);
-            let (e, f) = (b - a, d - a);
-            let before = solid_angle(&[a, a + e * s, a + e * s + f, d]) / rectangle.solid_angle();
-            let at = |t: f64| {
-                let y = a + e * s + f * t;
-                y.y / y.length()
-            };
-            // sin of the elevation, whose differences cancel where the rectangle is low
-            let below = (at(t) - at(0.0)) / (at(1.0) - at(0.0));
-            worst = worst.max((before - f64::from(uv[0])).abs()).max((below - f64::from(uv[1])).abs());
-            let again = numbers(&rectangle.row(), [s as f32, t as f32]);
-            let size = e.length().min(f.length()) / a.length();
-            (0..2).for_each(|k| undone = undone.max(f64::from((again[k] - uv[k]).abs()) * size));
+            let shares = rectangle.shares(uv);
+            let numbers_of = |shares: [f64; 2]| numbers_of(corners, rectangle.solid_angle(), shares);
+            let at = shares.map(f64::from);
+            let exact = numbers_of(at);
+            worst = worst.max(apart(exact, uv.map(f64::from)));
+            let again = numbers(&rectangle.row(), shares).map(f64::from);
+            let [a, b, _, d] = corners;
+            let reach = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+            let step = [b - a, d - a].map(|side| ROUNDINGS * 2.0_f64.powi(-24) * reach / side.length());
+            let near = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+            let moved = near.map(|by| apart(numbers_of([0, 1].map(|k| at[k] + by[k] * step[k])), exact));
+            undone = undone.max(apart(again, exact) / moved.into_iter().fold(0.0, f64::max));
             drawn += 1;
         }
         // 1 − p² >= K p²/T² is half of GRAZING² at least, and p is known to 2⁻²⁴: p₀ and the sum are rounded to half of that.
         let known = 2.0_f64.powi(-23) / (GRAZING * GRAZING);
         assert!(worst < known, "{worst:e} of {known:e}");
-        // The numbers of a small rectangle are known as far as its place is: a rounding over its size.
-        assert!(undone < 5e-6, "{undone:e}");
+        assert!(undone < 1.0, "{undone:e}");
     }
 
     #[test]

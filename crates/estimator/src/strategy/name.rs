@@ -29,13 +29,13 @@ impl fmt::Display for Strategy {
     }
 }
 
-/// A name that no strategy has.
+/// A name that no strategy has, or none that could be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no strategy \"{name}\": {why}")]
+#[error("strategy \"{name}\": {why}")]
 pub struct UnknownStrategy {
     /// What was asked for.
     pub name: String,
-    /// Why there is none, and what there is.
+    /// Why it cannot be had, and what can.
     pub why: String,
 }
 
@@ -90,7 +90,10 @@ fn number(text: &str) -> Option<f64> {
 }
 
 fn technique(name: &str) -> Result<Technique, String> {
-    name.parse().map_err(|()| unknown(name))
+    let is_combination =
+        || [MIS, MIXTURE, RESAMPLED].iter().any(|head| name.starts_with(head)) || [RATIO, CONTROL].contains(&name);
+    let why = |()| if is_combination() { format!("{name} is no technique but a combination") } else { unknown(name) };
+    name.parse().map_err(why)
 }
 
 /// A technique that no other need stand beside.
@@ -100,8 +103,8 @@ fn alone(name: &str) -> Result<Technique, String> {
         return Ok(technique);
     }
     Err(format!(
-        "it never picks a light of which hemisphere/cosine gives enough, and would be biased without it: take \
-         {MIS}balance({technique},hemisphere/cosine)"
+        "{technique} never picks a light of which hemisphere/cosine gives enough, so it would be biased anywhere but in a \
+         team of two with it: take {MIS}balance({technique},hemisphere/cosine)"
     ))
 }
 
@@ -123,7 +126,7 @@ fn pair(inside: &str) -> Result<[Technique; 2], String> {
 fn unknown(name: &str) -> String {
     let names: Vec<String> = Strategy::all().iter().map(ToString::to_string).collect();
     let nearest = nearest(name, &names).unwrap_or_default();
-    format!("did you mean \"{nearest}\"? (all: {})", names.join(", "))
+    format!("there is none of this name; did you mean \"{nearest}\"? (all: {})", names.join(", "))
 }
 
 #[cfg(test)]
@@ -153,7 +156,7 @@ mod tests {
     #[test]
     fn other_names_are_refused_with_the_reason() {
         for (name, reason) in [
-            ("area/unifrom", "did you mean \"area/uniform\""),
+            ("area/unifrom", "there is none of this name; did you mean \"area/uniform\""),
             ("hemispher/cosine", "did you mean \"hemisphere/cosine\""),
             ("", "did you mean"),
             ("hemisphere/cosine@power", "did you mean"),
@@ -161,6 +164,7 @@ mod tests {
             ("mixture/NaN", "from 0 to 1"),
             ("mixture/0.5(area/uniform)", "two techniques"),
             ("mis/optimal(area/uniform)", "two or three"),
+            ("mis/balance(ratio,hemisphere/cosine)", "ratio is no technique but a combination"),
             ("mis/balance(area/uniform,area/uniform)", "twice"),
             ("mis/balance(area/uniform:0,hemisphere/cosine)", "samples"),
             ("mis/balance(area/uniform,hemisphere/cosine", "not closed"),
@@ -168,7 +172,7 @@ mod tests {
             ("mis/optimal-pilot/0", "pilot samples"),
             ("area/uniform(hemisphere/cosine)", "brackets"),
             ("area/uniform@compensated", "mis/balance(area/uniform@compensated,hemisphere/cosine)"),
-            ("mixture/0.5(area/uniform@compensated,hemisphere/cosine)", "biased without it"),
+            ("mixture/0.5(area/uniform@compensated,hemisphere/cosine)", "biased anywhere but in a team of two"),
             ("mis/balance(area/uniform@compensated,hemisphere/uniform)", "what hemisphere/cosine leaves"),
             ("mis/balance(area/uniform@compensated,hemisphere/cosine,hemisphere/uniform)", "a team of two"),
             ("mis/balance(area/uniform@compensated,area/solid-angle@compensated)", "what hemisphere/cosine leaves"),

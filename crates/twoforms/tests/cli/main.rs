@@ -14,6 +14,7 @@ mod receivers;
 mod refusals;
 mod render;
 mod reproduce;
+mod strategies;
 mod streams;
 mod support;
 mod usage;

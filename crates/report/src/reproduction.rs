@@ -169,12 +169,14 @@ fn cells(row: &Row) -> Vec<String> {
     ]
 }
 
-/// What is exact in seven digits, or in as many as it stands beside; a count as one.
+/// What is exact in seven digits, or in as many as it stands beside; a count as one, and what its own error bound does not
+/// tell from zero as zero.
 fn exact(row: &Row) -> String {
     let digits = row.expected.iter().flatten().map(|printed| printed.digits).fold(DIGITS, usize::max);
     match row.finding.exact {
         None => NONE.to_owned(),
         Some([count, 0.0]) if count.fract() == 0.0 => count.to_string(),
+        Some([value, error]) if value.abs() <= error => format!("0 ± {error:.0e}"),
         Some([value, _]) => rounded(value, digits),
     }
 }

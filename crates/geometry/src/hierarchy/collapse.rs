@@ -32,27 +32,38 @@ struct Choice {
     packet: bool,
 }
 
-/// The costs at one node: `cost[i − 1]` is C(n, i).
-type Costs = [f32; FAN - 1];
+/// What is known of a subtree whose choices are made.
+struct Subtree {
+    /// `costs[i − 1]` is C(n, i).
+    costs: [f32; FAN - 1],
+    triangles: usize,
+}
+
+impl Subtree {
+    /// The most parts, of those that costs are kept for, that it can fall into.
+    fn most(&self) -> usize {
+        self.triangles.min(FAN - 1)
+    }
+}
 
 impl<'b> Collapse<'b> {
     /// Finds the cheapest choices, from the leaves up.
     pub(super) fn new(binary: &'b Binary) -> Self {
         let mut choices = vec![Choice { share: [0; FAN - 1], packet: true }; binary.len()];
-        let mut costs: Vec<Costs> = vec![[0.0; FAN - 1]; binary.len()];
-        let mut sizes = vec![1_u8; binary.len()];
+        let mut waiting: Vec<Subtree> = Vec::new();
         for &node in downward(binary).iter().rev() {
-            let n = node as usize;
-            let packet = binary.half_area(node) * PACKET_COST;
-            match binary.at(node) {
-                Place::Triangle(_) => costs[n] = [packet; FAN - 1],
-                Place::Pair(children) => {
-                    let [left, right] = children.map(|child| child as usize);
-                    sizes[n] = sizes[left].saturating_add(sizes[right]);
-                    let packet = if usize::from(sizes[n]) <= WIDTH { packet } else { f32::INFINITY };
-                    (costs[n], choices[n]) = choose(packet, binary.half_area(node), &costs[left], &costs[right]);
+            let area = binary.half_area(node);
+            let subtree = match binary.at(node) {
+                Place::Triangle(_) => Subtree { costs: [area * PACKET_COST; FAN - 1], triangles: 1 },
+                Place::Pair(_) => {
+                    let right = waiting.len() - 1;
+                    let (subtree, choice) = choose(area, &waiting[right - 1], &waiting[right]);
+                    waiting.truncate(right - 1);
+                    choices[node as usize] = choice;
+                    subtree
                 }
-            }
+            };
+            waiting.push(subtree);
         }
         Self { binary, choices }
     }
@@ -74,16 +85,18 @@ impl<'b> Collapse<'b> {
         parts
     }
 
-    /// The triangles of a subtree.
+    /// The triangles of a subtree that becomes a packet.
     pub(super) fn triangles(&self, node: u32) -> Vec<u32> {
-        let (mut found, mut left) = (Vec::with_capacity(WIDTH), vec![node]);
-        while let Some(node) = left.pop() {
-            match self.binary.at(node) {
-                Place::Triangle(triangle) => found.push(triangle),
-                Place::Pair(children) => left.extend(children),
-            }
-        }
+        let mut found = Vec::with_capacity(WIDTH);
+        self.gather(node, &mut found);
         found
+    }
+
+    fn gather(&self, node: u32, found: &mut Vec<u32>) {
+        match self.binary.at(node) {
+            Place::Triangle(triangle) => found.push(triangle),
+            Place::Pair(children) => children.into_iter().for_each(|child| self.gather(child, found)),
+        }
     }
 
     /// Gives a subtree as at most `count` parts.
@@ -100,14 +113,18 @@ impl<'b> Collapse<'b> {
     }
 }
 
-/// The costs of a subtree and the choices that they come from.
-fn choose(packet: f32, area: f32, left: &Costs, right: &Costs) -> (Costs, Choice) {
+/// A subtree whose box has half this area, of its two children. More parts than triangles are no cheaper, so that only as
+/// many are tried.
+fn choose(area: f32, left: &Subtree, right: &Subtree) -> (Subtree, Choice) {
+    let triangles = left.triangles + right.triangles;
     let best = |parts: usize| {
-        let costs = (1..parts).filter(|&k| k < FAN && parts - k < FAN).map(|k| (left[k - 1] + right[parts - k - 1], k));
+        let some = parts.saturating_sub(right.most()).max(1)..=left.most().min(parts - 1);
+        let costs = some.map(|k| (left.costs[k - 1] + right.costs[parts - k - 1], k));
         costs.fold((f32::INFINITY, 0), |best, next| if next.0 < best.0 { next } else { best })
     };
-    let (parts, share) = best(FAN);
+    let (parts, share) = best(triangles.min(FAN));
     let node = area + parts;
+    let packet = if triangles <= WIDTH { area * PACKET_COST } else { f32::INFINITY };
     let mut costs = [packet.min(node); FAN - 1];
     let mut choice = Choice { share: [share as u8; FAN - 1], packet: packet <= node };
     for i in 2..FAN {
@@ -116,10 +133,11 @@ fn choose(packet: f32, area: f32, left: &Costs, right: &Costs) -> (Costs, Choice
         costs[i - 1] = if cheaper { parts } else { costs[i - 2] };
         choice.share[i - 1] = if cheaper { share as u8 } else { 0 };
     }
-    (costs, choice)
+    (Subtree { costs, triangles }, choice)
 }
 
-/// All nodes, each before its children.
+/// All nodes, each before its children, right ones first: backwards, whatever lies below a node comes right before it, left
+/// before right.
 fn downward(binary: &Binary) -> Vec<u32> {
     let mut order = Vec::with_capacity(binary.len());
     let mut left = if binary.len() == 0 { Vec::new() } else { vec![0] };

@@ -1,7 +1,7 @@
 //! Measures what estimates cost against samples and against triangles, and writes both as figures with their numbers:
 //! `cargo run --release -p twoforms-tests --bin write-cost-figures [FOLDER]` makes `cost-against-samples.svg`,
 //! `cost-against-triangles.svg` and a `.csv` of each. Without a folder, the `docs/figures/` of the repository. It takes some
-//! minutes and 3 GB of memory; all is CPU time on one thread, medians of five rounds.
+//! minutes and 3.5 GB of memory; all is CPU time on one thread, medians of five rounds.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

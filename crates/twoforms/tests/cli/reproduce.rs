@@ -29,6 +29,15 @@ fn a_document_holds_what_the_contract_names() {
 }
 
 #[test]
+fn a_variance_that_its_bound_does_not_tell_from_zero_is_shown_as_zero() {
+    let text = twoforms("reproduce furnace --quick --quiet").printed();
+    let found: Vec<&str> =
+        text.lines().filter(|l| l.contains("of hemisphere/cosine") && l.ends_with("exact")).collect();
+    assert_eq!(found.len(), 4, "{text}");
+    assert!(found.iter().all(|line| line.contains(" 0 ± ")), "{found:?}");
+}
+
+#[test]
 fn a_user_s_file_runs_with_fields_set_and_is_written_beside_the_results() {
     let folder = folder("reproduce");
     let path = written(&folder, "die.toml", DIE);

@@ -11,6 +11,11 @@ use crate::mesh::{Mesh, Triangle};
 
 /// Share of the nodes that the first pass tries to move to a better place; later passes try fewer.
 const MOVED: f32 = 0.05;
+/// Boxes are enlarged by up to this share of their size. Of boxes that lie alike, as copies of a triangle do or the steps of a
+/// stair, each would name the same side as its better neighbour, and a pass over all of them would merge one pair.
+const LOOSENESS: f32 = 1.0 / 4096.0;
+/// So few triangles are merged in no time whatever their boxes are, and keep them as they are.
+const FEW: usize = 1024;
 /// Merges below which only direct neighbours are looked at, where almost all of them merge anyway.
 const NARROW_SEARCH: usize = 3;
 
@@ -25,7 +30,7 @@ impl Binary {
     /// Builds the tree.
     pub(super) fn new(mesh: &Mesh) -> Self {
         let all = 0..mesh.len() as u32;
-        let boxes: Vec<Bounds> = all.clone().map(|t| Bounds::of(&mesh.triangle(t))).collect();
+        let boxes: Vec<Bounds> = all.clone().map(|t| Bounds::of(mesh, t)).collect();
         let mut builder = PlocBuilder::with_capacity(boxes.len());
         let mut tree =
             builder.build(PlocSearchDistance::Medium, &boxes, all.collect(), SortPrecision::U64, NARROW_SEARCH);
@@ -72,9 +77,21 @@ pub(super) enum Place {
 struct Bounds(Aabb);
 
 impl Bounds {
-    fn of(triangle: &Triangle) -> Self {
-        let corners = [triangle.a, triangle.b, triangle.c].map(Vec3A::from);
-        Self(Aabb::from_points(&corners))
+    fn of(mesh: &Mesh, triangle: u32) -> Self {
+        let Triangle { a, b, c } = mesh.triangle(triangle);
+        let bounds = Self(Aabb::from_points(&[a, b, c].map(Vec3A::from)));
+        if mesh.len() > FEW { bounds.loosened(triangle) } else { bounds }
+    }
+
+    /// The box enlarged by a little that differs from triangle to triangle and from face to face, as far as binary32 reaches.
+    fn loosened(self, triangle: u32) -> Self {
+        let most = LOOSENESS * self.0.diagonal().max_element();
+        // Multiples of the golden ratio less their whole parts, in units of 2⁻³²: spread evenly, no two alike.
+        let share =
+            |face| triangle.wrapping_mul(6).wrapping_add(face).wrapping_mul(0x9E37_79B9) as f32 * 2_f32.powi(-32);
+        let outward = |first| most * Vec3A::new(share(first), share(first + 1), share(first + 2));
+        let (min, max) = (self.0.min - outward(0), self.0.max + outward(3));
+        if min.is_finite() && max.is_finite() { Self(Aabb { min, max }) } else { self }
     }
 }
 

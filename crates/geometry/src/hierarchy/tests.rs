@@ -8,6 +8,7 @@ use glam::{DVec3, Vec3};
 use rand_philox::{Philox, u32_to_unit_f64};
 
 use super::Hierarchy;
+use super::binary::{Binary, Place};
 use super::node::WIDTH;
 use super::stack::Depth;
 use crate::mesh::Mesh;
@@ -154,13 +155,22 @@ fn a_trinket_on_a_plain_gives_the_bits_of_brute_force() {
     }
 }
 
-/// Equal triangles make trees as deep as they come: every kind of stack answers alike.
+/// Triangles of one plane, each around the one before.
+fn nested(count: usize) -> Mesh {
+    let corner = |k: usize| {
+        [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0) * (1 + k) as f32 + Vec3::Z)
+    };
+    let triangle = |k: u32| [3 * k, 3 * k + 1, 3 * k + 2];
+    Mesh { vertices: (0..count).flat_map(corner).collect(), triangles: (0..count as u32).map(triangle).collect() }
+}
+
+/// Each of nested triangles is best joined with what is inside of it, which makes the deepest trees: every kind of stack
+/// answers alike.
 #[test]
 fn trees_of_every_depth_answer() {
     let mut deepest = Depth::Shallow;
     for count in [2, WIDTH, 1000, 5000] {
-        let corners = vec![Vec3::new(-1.0, -1.0, 1.0), Vec3::new(1.0, -1.0, 1.0), Vec3::new(0.0, 1.0, 1.0)];
-        let mesh = Mesh { vertices: corners, triangles: vec![[0, 1, 2]; count] };
+        let mesh = nested(count);
         let mut tree = Hierarchy::new(&mesh);
         deepest = tree.depth;
         for depth in [tree.depth, Depth::Deep] {
@@ -171,6 +181,32 @@ fn trees_of_every_depth_answer() {
         }
     }
     assert_ne!(deepest, Depth::Shallow);
+}
+
+/// Copies of a triangle, and the steps of a stair: far fewer levels than triangles.
+#[test]
+fn triangles_that_lie_alike_make_no_chain() {
+    let mut draws = draws(8);
+    for (name, step) in [("copies", Vec3::ZERO), ("stair", Vec3::new(0.125, 0.125, 0.0))] {
+        let corner = |k: u32| [Vec3::ZERO, Vec3::X, Vec3::Z].map(|corner| corner * 0.125 + step * k as f32);
+        let vertices = (0..4096).flat_map(corner).collect();
+        let mesh = Mesh { vertices, triangles: (0..4096).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect() };
+        let levels = levels_of(&Binary::new(&mesh));
+        assert!(levels < 256, "{name}: {levels} levels");
+        let tree = Hierarchy::new(&mesh);
+        (0..20).for_each(|_| compare(&tree, &mesh, &ray(&mesh, &mut draws), name));
+    }
+}
+
+fn levels_of(binary: &Binary) -> usize {
+    let (mut deepest, mut left) = (0, vec![(0, 1)]);
+    while let Some((node, level)) = left.pop() {
+        deepest = deepest.max(level);
+        if let Place::Pair(children) = binary.at(node) {
+            left.extend(children.map(|child| (child, level + 1)));
+        }
+    }
+    deepest
 }
 
 #[test]

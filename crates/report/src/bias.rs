@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use twoforms_comparison::result::{ReceiverResult, Verdict};
 
-use crate::layout::{layout, plain, wrapped};
+use crate::layout::{layout, note, plain};
 use crate::number::{NONE, percent, significant};
 use crate::ranking::{estimators, full_name};
 
@@ -94,8 +94,8 @@ fn reasons(judged: &[Judged]) -> Vec<String> {
             places.entry(note).or_default().push(format!("{} at {}", judged.name, named(&receivers)));
         }
     }
-    let line = |(note, at): (&str, Vec<String>)| wrapped(&format!("undecided, {note}: {}", at.join(", ")));
-    places.into_iter().map(|place| format!("  {}", line(place).replace('\n', "\n    "))).collect()
+    let line = |(why, at): (&str, Vec<String>)| note(&format!("undecided, {why}: {}", at.join(", ")));
+    places.into_iter().map(line).collect()
 }
 
 /// One by its name, several by their number.

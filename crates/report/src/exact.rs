@@ -1,5 +1,6 @@
 //! Exact light: the document, its table and its CSV.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 
 use ::csv::Writer;
@@ -9,7 +10,7 @@ use twoforms_comparison::swept::Swept;
 
 use crate::error::ReportError;
 use crate::finite;
-use crate::layout::{layout, plain};
+use crate::layout::{layout, note, plain};
 use crate::number::{NONE, count, short, significant};
 use crate::provenance::Provenance;
 use crate::sweep;
@@ -88,7 +89,7 @@ impl ExactDocument {
             let (rows, after) = rest.split_at(receiver.light.strategies.len());
             rest = after;
             let header = if rows.is_empty() { &[] } else { header };
-            [&[heading(receiver)][..], header, rows].concat().join("\n")
+            [&[heading(receiver)][..], header, rows, &reasons(&receiver.light)].concat().join("\n")
         };
         self.receivers.iter().map(block).collect()
     }
@@ -143,10 +144,21 @@ fn cells(light: &ExactLight, variance: &ExactVariance) -> Vec<String> {
     vec![
         variance.strategy.clone(),
         cell(v.map(|v| v.luminance), significant),
-        cell(v.map(|v| v.error_bound), |bound| format!("{bound:.0e}")),
+        cell(v.map(|v| v.error_bound), |bound| if bound == 0.0 { "0".to_owned() } else { format!("{bound:.0e}") }),
         cell(v.and_then(relative).map(f64::sqrt), significant),
         cell(v.and_then(relative).map(|r| (1e4 * r).ceil()), count),
     ]
+}
+
+/// A note for each reason why strategies have no variance.
+fn reasons(light: &ExactLight) -> Vec<String> {
+    let mut strategies: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for variance in &light.strategies {
+        if let Some(why) = &variance.why {
+            strategies.entry(why).or_default().push(&variance.strategy);
+        }
+    }
+    strategies.into_iter().map(|(why, names)| note(&format!("{}: {why}", names.join(", ")))).collect()
 }
 
 fn heading(receiver: &ExactResult) -> String {

@@ -66,6 +66,11 @@ pub(crate) fn elided(name: &str, longest: usize) -> String {
     head.iter().chain(&['…']).chain(tail).collect()
 }
 
+/// A note under a table: wrapped, its first line indented, the others more.
+pub(crate) fn note(text: &str) -> String {
+    format!("  {}", wrapped(text).replace('\n', "\n    "))
+}
+
 /// `text` broken at spaces into lines of at most [`TEXT_WIDTH`] characters.
 pub(crate) fn wrapped(text: &str) -> String {
     let (mut lines, mut width) = (String::new(), 0);

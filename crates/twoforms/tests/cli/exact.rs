@@ -48,6 +48,14 @@ fn nothing_is_random() {
 }
 
 #[test]
+fn the_table_says_why_a_strategy_has_no_variance() {
+    let table = twoforms(&format!("{LINE} --strategies ratio,area/uniform,ris/8")).printed();
+    has_all(&table, &["area/uniform ", "  ratio, ris/8: no formula is known for its variance"]);
+    let table = twoforms(&format!("{LINE} --strategies area/uniform")).printed();
+    assert!(!table.contains("no formula"), "{table}");
+}
+
+#[test]
 fn the_table_and_the_file_hold_the_strategies_asked_for() {
     let folder = folder("exact");
     let path = folder.join("exact.txt");

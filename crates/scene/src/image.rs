@@ -108,6 +108,16 @@ mod tests {
         assert!((blue - 0.502_886_5).abs() < 1e-6, "the standard's middle grey: {blue}");
     }
 
+    /// The power law begins between 10 and 11 of 255.
+    #[test]
+    fn the_curve_of_srgb_has_two_parts() {
+        for (code, expected) in [(10, 0.003_035_27), (11, 0.003_346_54), (64, 0.051_269_5), (128, 0.215_860_5)] {
+            let image = Image { name: String::new(), width: 1, height: 1, texels: Texels::Eight(vec![code; 4]) };
+            let [found, ..] = image.texel(0, 0, Encoding::Srgb);
+            assert!((found / expected - 1.0).abs() < 1e-5, "{code}: {found}");
+        }
+    }
+
     #[test]
     fn sixteen_bits_are_the_same_scale() {
         let texels = Texels::Sixteen([0_u16, 17, 188, 255].map(|c| c * 257).to_vec());

@@ -61,6 +61,47 @@ fn alpha_is_what_its_mode_says() {
     assert_eq!(alphas(json!({"alphaCutoff": 0.25})), (Alpha::Mask(0.25), [0.0, 0.0, 1.0, 1.0]));
 }
 
+/// Factor, texture and vertex colours, each alone: where one of them may leave less than the mode asks, light passes.
+#[test]
+fn light_passes_where_alpha_may_be_small() {
+    let veiled = |factor: f64, least: u8, corner: f32, mode: Value| {
+        let mut file = thing(pbr(&json!({"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 1, 1, factor]})));
+        for (key, value) in mode.as_object().expect("an object") {
+            file.json["materials"][0][key] = value.clone();
+        }
+        let view = file.view(&png(2, 1, &[[9, 9, 9, 255], [9, 9, 9, least]]));
+        file.json["images"][0]["bufferView"] = json!(view);
+        let colors = file.vectors(&[[1.0, 1.0, 1.0, corner], [1.0; 4], [1.0; 4], [1.0; 4]]);
+        file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+        file.scene().veil().is_some()
+    };
+    for (factor, least, corner) in [(0.75, 255, 1.0), (1.0, 191, 1.0), (1.0, 255, 0.75)] {
+        let with = |mode| veiled(factor, least, corner, mode);
+        assert!(!with(json!({})));
+        assert!(with(json!({"alphaMode": "BLEND"})));
+        assert!(with(json!({"alphaMode": "MASK", "alphaCutoff": 0.8})));
+        assert!(!with(json!({"alphaMode": "MASK", "alphaCutoff": 0.7})), "{factor} {least} {corner}");
+    }
+    assert!(!veiled(1.0, 255, 1.0, json!({"alphaMode": "BLEND"})));
+}
+
+/// Beyond the right edge by `wrapS`, beyond the lower one by `wrapT`.
+#[test]
+fn each_axis_has_its_wrapping() {
+    let found = |wrap: &str, offset: [f64; 2]| {
+        let moved = json!({"index": 0, "extensions": {"KHR_texture_transform": {"offset": offset}}});
+        let mut file = thing(pbr(&json!({"metallicFactor": 0, "baseColorTexture": moved})));
+        file.json["samplers"][0][wrap] = json!(33071);
+        let scene = file.scene();
+        QUARTERS.map(|(t, b)| scene.appearance_at(t, b).base_color)
+    };
+    let [black, red, green, blue] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    assert_eq!(found("wrapS", [1.0, 0.0]), [red, red, blue, blue]);
+    assert_eq!(found("wrapS", [0.0, 1.0]), [black, red, green, blue]);
+    assert_eq!(found("wrapT", [0.0, 1.0]), [green, blue, green, blue]);
+    assert_eq!(found("wrapT", [1.0, 0.0]), [black, red, green, blue]);
+}
+
 #[test]
 fn metallic_is_blue_and_roughness_green_and_both_are_linear() {
     let factors = json!({"metallicFactor": 0.5, "roughnessFactor": 0.25, "metallicRoughnessTexture": {"index": 0}});

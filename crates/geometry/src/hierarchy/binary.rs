@@ -86,7 +86,7 @@ impl Bounds {
     /// The box enlarged by a little that differs from triangle to triangle and from face to face, as far as binary32 reaches.
     fn loosened(self, triangle: u32) -> Self {
         let most = LOOSENESS * self.0.diagonal().max_element();
-        // Multiples of the golden ratio less their whole parts, in units of 2⁻³²: spread evenly, no two alike.
+        // Multiples of the golden ratio less their whole parts, in units of 2⁻³²: spread evenly, hardly two alike.
         let share =
             |face| triangle.wrapping_mul(6).wrapping_add(face).wrapping_mul(0x9E37_79B9) as f32 * 2_f32.powi(-32);
         let outward = |first| most * Vec3A::new(share(first), share(first + 1), share(first + 2));
